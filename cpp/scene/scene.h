@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the user asked for, as plain data.
+///
+/// The TOML reader fills these aggregates; a C++ program can build them just
+/// as well. SI units throughout. `required` marks a value that has no
+/// default: it is NaN, and the checks are written so that NaN fails them.
+namespace mmale::scene
+{
+inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Point = std::array<double, 2>;
+
+enum class Symmetry
+{
+  plane_strain,
+  axisymmetric ///< x is the radius r, y the axis z
+};
+
+/// How a quadrilateral of the built-in mesh is cut into two triangles.
+enum class Diagonal
+{
+  right,      ///< from lower left to upper right
+  left,       ///< from lower right to upper left
+  alternating ///< in turn, as on a chessboard
+};
+
+/// Cells grow away from a point: edge `size` within `radius` of it, then each
+/// next edge longer by the factor `growth`, up to the mesh's own size.
+struct Grading
+{
+  Point towards = {required, required}; ///< [m]
+  double size = required;               ///< edge at the point [m]
+  double growth = 1.15;                 ///< ratio of neighbours, 1 < growth <= 2
+  double radius = 0;                    ///< uniform fine zone around it [m]
+};
+
+/// A rectangle [0, width] x [0, height], or a quadrilateral given by corners.
+///
+/// Sides are named left, right, bottom, top. Corners run counter-clockwise
+/// from (left, bottom).
+struct Mesh
+{
+  std::string shape;        ///< "rectangle" | "quadrilateral"
+  double width = required;  ///< rectangle only [m]
+  double height = required; ///< rectangle only [m]
+  Point origin = {0, 0};    ///< rectangle's lower left corner [m]
+  std::array<Point, 4> corners
+      = {{{required, required}, {required, required}, {required, required},
+          {required, required}}}; ///< quadrilateral only [m]
+  double size = 0;                ///< edge away from the grading [m]; or
+  std::array<int, 2> cells = {0, 0}; ///< edges along x and along y
+  Diagonal diagonal = Diagonal::right;
+  std::optional<Grading> grading;
+  double distortion = 0;  ///< inner nodes moved at random by up to this share
+                          ///< of the local edge, 0 <= distortion < 0.4
+};
+
+/// A named part of a side: the facets whose midpoint lies between `from` and
+/// `to`, measured along x (bottom, top) or y (left, right).
+struct Boundary
+{
+  std::string side;        ///< left | right | bottom | top
+  double from = -infinity; ///< [m]
+  double to = infinity;    ///< [m]
+};
+
+/// A law by name and its parameters as written; the law's own aggregate checks
+/// them (`material/library.h`).
+struct Material
+{
+  std::string law;
+  std::map<std::string, double> parameters;
+};
+
+/// A value over the time of its stage [s]: constant, or piecewise linear.
+struct TimeSeries
+{
+  std::vector<double> time;  ///< ascending; empty for a constant
+  std::vector<double> value; ///< same length, or one number
+  double operator()(double t) const;
+};
+
+/// What holds on a named boundary during a stage.
+///
+/// Displacements count from the start of the stage. `velocity_*` is their
+/// rate; a boundary has one of the two for a direction, never both.
+struct Condition
+{
+  bool fixed = false;  ///< no displacement at all
+  bool roller = false; ///< no displacement normal to the side
+  std::optional<TimeSeries> displacement_x, displacement_y; ///< [m]
+  std::optional<TimeSeries> velocity_x, velocity_y;         ///< [m/s]
+  std::optional<TimeSeries> traction_x, traction_y; ///< force on the body [Pa]
+  std::optional<TimeSeries> pressure; ///< follows the surface, inward is + [Pa]
+};
+
+/// A stretch of time with its own boundary conditions, loads and steps.
+struct Stage
+{
+  std::string name;
+  double duration = required;      ///< [s]
+  double step = required;          ///< first step [s]
+  double step_min = 0;             ///< floor [s]; 0: step / 1024
+  double step_max = 0;             ///< ceiling [s]; 0: step
+  std::map<std::string, Condition> boundary; ///< by boundary name
+  std::optional<std::array<TimeSeries, 2>> gravity; ///< [m/s^2]
+};
+
+enum class Element
+{
+  mini,           ///< the method's own
+  equal_order,    ///< without the bubble: shows the checkerboard
+  constant_strain ///< displacement only: locks
+};
+
+enum class Tangent
+{
+  consistent,
+  continuum
+};
+
+/// Knobs of the Lagrangian step.
+struct Solver
+{
+  Element element = Element::mini;
+  Tangent tangent = Tangent::consistent;
+  bool geometric_stiffness = true; ///< off: slower Newton, same answer
+  double tolerance = 1e-8; ///< relative to the norm of the cells' own forces
+  int max_iterations = 15; ///< a step with more fails and is halved
+  int lag_jacobian = 1;    ///< factorise every n-th Newton iteration
+  bool line_search = true;
+  bool plastic_bubble = true; ///< METHOD.md, form P; off: noisier pressure
+  std::string petsc;          ///< more PETSc options, prefix `lagrangian_`
+};
+
+enum class RemapMode
+{
+  lagrangian, ///< never
+  ale,        ///< smoothed mesh
+  eulerian    ///< nodes go home
+};
+
+/// Remap between Lagrangian steps.
+struct Remap
+{
+  RemapMode mode = RemapMode::lagrangian;
+  int every = 0;            ///< steps between remaps; 0: only on quality
+  double quality_below = 0; ///< radius ratio that asks for a remap; 0: never
+  std::string smoother = "optimise"; ///< name in the remap library's list
+  std::string target = "initial"; ///< shape aimed at: "initial" | "equilateral"
+  int sweeps = 5;                 ///< of the smoother
+  std::string transport = "limited_linear"; ///< name in the library's list
+  double max_loss = 0.5; ///< share of a cell that may leave in a sub-cycle
+  std::vector<std::string> surface; ///< boundaries that are free surfaces
+  std::vector<std::string> open;    ///< boundaries through which fields pass
+};
+
+/// A passive scalar per cell, carried by the remap.
+struct Tracer
+{
+  std::string shape;                  ///< "circle"
+  Point centre = {required, required}; ///< [m]
+  double radius = required;           ///< [m]
+  double inside = 1;
+  double outside = 0; ///< also what flows in through open boundaries
+};
+
+/// A prescribed rigid rotation instead of a Lagrangian step.
+struct Motion
+{
+  Point centre = {required, required}; ///< [m]
+  double revolutions = required;       ///< over the stage; clockwise is < 0
+};
+
+/// A column of curves.csv.
+///
+/// value = quantity / (divide_by * breadth); `breadth` is 1, or the extent of
+/// the boundary as first laid ("nominal"), or that plus half the first cell
+/// beside it ("effective").
+struct Curve
+{
+  std::string quantity; ///< displacement_x|y, reaction_x|y, pressure,
+                        ///< tracer_max, tracer_min, tracer_total
+  std::string boundary; ///< a named boundary (means over it), or
+  std::optional<Point> point; ///< a material point given at the start [m]
+  std::string tracer;         ///< for tracer_*
+  double divide_by = 1;
+  std::string breadth; ///< "" | "nominal" | "effective"
+};
+
+/// Values along a straight line, sampled at every output of fields.
+struct Line
+{
+  Point from = {required, required}, to = {required, required}; ///< [m]
+  int points = 100;
+};
+
+/// A picture drawn from the fields; drawn at the end of the run.
+struct Picture
+{
+  std::string field; ///< name in the field files, or "" for the mesh alone
+  bool mesh = true;
+  bool arrows = false; ///< velocity (displacement increment over step)
+  double at = infinity; ///< drawn at this time of the run [s]; default the end
+};
+
+struct Output
+{
+  double fields_every = 0; ///< [s]; 0: start, end, and the pictures' times
+  std::map<std::string, Curve> curve;
+  std::map<std::string, Line> line;
+  std::map<std::string, Picture> picture;
+};
+
+struct Scene
+{
+  std::string title;
+  Symmetry symmetry = Symmetry::plane_strain;
+  Mesh mesh;
+  std::map<std::string, Boundary> boundary;
+  std::map<std::string, Material> material;
+  std::map<std::string, Tracer> tracer;
+  std::optional<Motion> motion;
+  std::vector<Stage> stage;
+  Solver solver;
+  Remap remap;
+  Output output;
+};
+} // namespace mmale::scene
