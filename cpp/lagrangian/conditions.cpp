@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "conditions.h"
+
+#include <algorithm>
+
+namespace mmale::lagrangian
+{
+namespace
+{
+constexpr int in_place = -1;
+
+double at(const std::optional<scene::TimeSeries>& series, double t)
+{
+  return series ? (*series)(t) : 0.0;
+}
+} // namespace
+
+Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
+    : _holder(3 * domain.num_nodes(), -1), _gravity(stage.gravity)
+{
+  // Prescribed motion first: where a punch meets a roller, the node is the
+  // punch's, and so is its reaction.
+  for (const bool prescribed : {true, false})
+    for (const auto& [name, c] : stage.boundary)
+    {
+      const int b = domain.boundary(name);
+      const auto nodes = domain.boundary_nodes(b);
+      const auto& side = domain.boundary_sides[b];
+      const bool upright = side == "left" or side == "right";
+      for (int d = 0; d < 2; ++d)
+      {
+        const auto& u = d == 0 ? c.displacement_x : c.displacement_y;
+        const auto& v = d == 0 ? c.velocity_x : c.velocity_y;
+        if (prescribed and (u or v))
+        {
+          _series.push_back({u ? *u : *v, not u});
+          hold(nodes, d, b, static_cast<int>(_series.size()) - 1);
+        }
+        if (not prescribed
+            and (c.fixed or (c.roller and (d == 0) == upright)))
+          hold(nodes, d, b, in_place);
+      }
+      if (prescribed and (c.traction_x or c.traction_y or c.pressure))
+        _loaded.push_back({b, c.traction_x, c.traction_y, c.pressure});
+    }
+}
+
+void Conditions::hold(std::span<const int> nodes, int direction, int boundary,
+                      int series)
+{
+  for (int n : nodes)
+    if (const int unknown = 3 * n + direction; _holder[unknown] < 0)
+    {
+      _holder[unknown] = boundary;
+      _held.push_back({unknown, series});
+    }
+}
+
+void Conditions::increments(double t0, double t1, std::span<double> g) const
+{
+  std::ranges::fill(g, 0.0);
+  std::vector<double> value(_series.size());
+  for (std::size_t i = 0; i < _series.size(); ++i)
+  {
+    const auto& [f, rate] = _series[i];
+    // the middle of the step: exact while the rate is linear
+    value[i] = rate ? f(0.5 * (t0 + t1)) * (t1 - t0)
+                    : f(t1) - (t0 > 0 ? f(t0) : 0.0);
+  }
+  for (const auto& [unknown, series] : _held)
+    g[unknown] = series == in_place ? 0.0 : value[series];
+}
+
+std::vector<Load> Conditions::loads(double t) const
+{
+  std::vector<Load> out;
+  for (const auto& [boundary, x, y, pressure] : _loaded)
+    out.push_back({boundary, {at(x, t), at(y, t)}, at(pressure, t)});
+  return out;
+}
+
+std::array<double, 2> Conditions::gravity(double t) const
+{
+  if (not _gravity)
+    return {0, 0};
+  return {(*_gravity)[0](t), (*_gravity)[1](t)};
+}
+} // namespace mmale::lagrangian

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "mesh/domain.h"
+#include "scene/scene.h"
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mmale::lagrangian
+{
+/// A load on the facets of a boundary at one time.
+struct Load
+{
+  int boundary;
+  double traction[2]; ///< on the body [Pa]
+  double pressure;    ///< inward [Pa]
+};
+
+/// What a stage prescribes, unknown by unknown (ux, uy, p a node).
+class Conditions
+{
+public:
+  Conditions(const mesh::Domain& domain, const scene::Stage& stage);
+
+  /// Boundary that holds an unknown, or -1 where it is free; shape (nodes, 3).
+  std::span<const int> holder() const { return _holder; }
+
+  /// Displacement increments of held unknowns, 0 elsewhere.
+  ///
+  /// @param[in]  t0,t1 step, counted from the start of the stage [s]
+  /// @param[out] g     shape (nodes, 3)
+  void increments(double t0, double t1, std::span<double> g) const;
+
+  /// Loads at time t, boundaries without load left out.
+  std::vector<Load> loads(double t) const;
+
+  /// Gravity at time t [m/s2].
+  std::array<double, 2> gravity(double t) const;
+
+private:
+  struct Held
+  {
+    int unknown;
+    int series; ///< index into _series, -1: stays in place
+  };
+  struct Series
+  {
+    scene::TimeSeries value;
+    bool rate; ///< a velocity
+  };
+  struct Loaded
+  {
+    int boundary;
+    std::optional<scene::TimeSeries> x, y, pressure;
+  };
+  void hold(std::span<const int> nodes, int direction, int boundary,
+            int series);
+
+  std::vector<int> _holder;
+  std::vector<Held> _held;
+  std::vector<Series> _series;
+  std::vector<Loaded> _loaded;
+  std::optional<std::array<scene::TimeSeries, 2>> _gravity;
+};
+} // namespace mmale::lagrangian

@@ -1,0 +1,512 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "problem.h"
+
+#include "load.h"
+#include <algorithm>
+#include <cmath>
+#include <dolfinx/common/MPI.h>
+#include <limits>
+#include <numbers>
+
+namespace mmale::lagrangian
+{
+namespace
+{
+double mean_edge(const mesh::Domain& domain)
+{
+  double sum[2] = {0, static_cast<double>(domain.num_owned_cells)};
+  for (int c = 0; c < domain.num_owned_cells; ++c)
+    sum[0] += cell_volume(domain, domain.initial_x, c, false);
+  MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, domain.comm);
+  return std::sqrt(sum[0] / sum[1]);
+}
+
+std::shared_ptr<const dolfinx::common::IndexMap>
+node_map(const mesh::Domain& domain)
+{
+  return domain.space->dofmap()->index_map;
+}
+} // namespace
+
+Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
+                 scene::Symmetry symmetry, const scene::Solver& options,
+                 output::Clock& clock)
+    : _domain(domain), _symmetry(symmetry), _options(options), _clock(clock),
+      _element(domain, law, symmetry, options),
+      _load_R(symmetry == scene::Symmetry::axisymmetric ? *form_load_R_axi
+                                                        : *form_load_R_plane,
+              IntegralKind::facet),
+      _load_J(symmetry == scene::Symmetry::axisymmetric ? *form_load_J_axi
+                                                        : *form_load_J_plane,
+              IntegralKind::facet),
+      _stress(_element.shear_modulus()), _length(mean_edge(domain)),
+      _increment(3 * domain.num_nodes(), 0), _z(node_map(domain), 3),
+      _force(node_map(domain), 3)
+{
+  create_matrix();
+  create_solver();
+}
+
+Problem::~Problem()
+{
+  SNESDestroy(&_snes);
+  MatDestroy(&_J);
+  VecDestroy(&_x);
+  VecDestroy(&_r);
+}
+
+void Problem::create_matrix()
+{
+  const auto& map = _domain.nodes();
+  const PetscInt rows = 3 * _domain.num_owned_nodes;
+  MatCreate(_domain.comm, &_J);
+  MatSetSizes(_J, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE);
+  MatSetType(_J, MATAIJ);
+  MatSetBlockSize(_J, 3);
+
+  std::vector<std::int64_t> global(_domain.num_nodes());
+  std::vector<std::int32_t> local(_domain.num_nodes());
+  for (int n = 0; n < _domain.num_nodes(); ++n)
+    local[n] = n;
+  map.local_to_global(local, global);
+  std::vector<PetscInt> row, column;
+  const std::size_t entries = 81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
+  row.reserve(entries);
+  column.reserve(entries);
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < 9; ++j)
+      {
+        const auto& nodes = _domain.cells[c];
+        row.push_back(static_cast<PetscInt>(3 * global[nodes[i / 3]] + i % 3));
+        column.push_back(static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
+      }
+  for (PetscInt i = 0; i < rows; ++i)
+  {
+    row.push_back(static_cast<PetscInt>(3 * global[i / 3] + i % 3));
+    column.push_back(row.back());
+  }
+  MatSetPreallocationCOO(_J, static_cast<PetscCount>(row.size()), row.data(),
+                         column.data());
+  _coo.resize(row.size());
+  MatCreateVecs(_J, &_x, &_r);
+}
+
+void Problem::create_solver()
+{
+  SNESCreate(_domain.comm, &_snes);
+  SNESSetOptionsPrefix(_snes, "lagrangian_");
+  SNESSetType(_snes, SNESNEWTONLS);
+  SNESSetFunction(_snes, _r, function, this);
+  SNESSetJacobian(_snes, _J, _J, jacobian, this);
+  SNESSetTolerances(_snes, 0, 0, 0, _options.max_iterations, 10000);
+  SNESSetConvergenceTest(_snes, converged, this, nullptr);
+  if (_options.lag_jacobian > 1)
+  {
+    SNESSetLagJacobian(_snes, _options.lag_jacobian);
+    SNESSetLagPreconditioner(_snes, 1);
+  }
+  SNESLineSearch search;
+  SNESGetLineSearch(_snes, &search);
+  SNESLineSearchSetType(search, _options.line_search ? SNESLINESEARCHBT
+                                                     : SNESLINESEARCHBASIC);
+  SNESLineSearchSetPreCheck(search, precheck, this);
+  KSP ksp;
+  PC pc;
+  SNESGetKSP(_snes, &ksp);
+  KSPSetType(ksp, KSPPREONLY);
+  KSPGetPC(ksp, &pc);
+  PCSetType(pc, PCLU);
+  PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
+  if (not _options.petsc.empty())
+    PetscOptionsInsertString(nullptr, _options.petsc.c_str());
+  SNESSetFromOptions(_snes);
+}
+
+void Problem::set_stage(const scene::Stage& stage)
+{
+  _conditions.emplace(_domain, stage);
+  _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
+  _guess.clear();
+}
+
+void Problem::unpack(Vec x)
+{
+  const PetscScalar* from = nullptr;
+  VecGetArrayRead(x, &from);
+  auto z = _z.mutable_array();
+  const double pressure = _stress / _length;
+  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+    z[i] = i % 3 == 2 ? from[i] * pressure : from[i];
+  VecRestoreArrayRead(x, &from);
+  _z.scatter_fwd();
+}
+
+void Problem::agree_on_failure(int cell, const std::string& why)
+{
+  // The lowest rank that failed tells the others.
+  int rank = dolfinx::MPI::rank(_domain.comm);
+  int first = cell >= 0 ? rank : std::numeric_limits<int>::max();
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, _domain.comm);
+  _failed = first != std::numeric_limits<int>::max();
+  if (not _failed)
+    return;
+  struct
+  {
+    std::int64_t cell = -1;
+    double place[2] = {0, 0};
+    char cause[64] = {};
+  } told;
+  if (rank == first)
+  {
+    told.cell = _domain.cell_id[cell];
+    for (int n : _domain.cells[cell])
+      for (int d = 0; d < 2; ++d)
+        told.place[d] += _state->x[2 * n + d] / 3;
+    why.copy(told.cause, sizeof(told.cause) - 1);
+  }
+  MPI_Bcast(&told, sizeof(told), MPI_BYTE, first, _domain.comm);
+  _failure = {told.cause, told.cell, {told.place[0], told.place[1]}};
+}
+
+bool Problem::evaluate()
+{
+  std::string why;
+  const int failed = _element.evaluate(*_state, _z.array(), why);
+  agree_on_failure(failed, why);
+  return not _failed;
+}
+
+void Problem::assemble_loads(std::span<double> force)
+{
+  for (const Load& load : _loads)
+  {
+    Constants c = _constants;
+    std::copy_n(load.traction, 2, c.t);
+    c.p_a = load.pressure;
+    for (const mesh::Facet& f : _domain.facets)
+    {
+      if (f.boundary != load.boundary or f.cell >= _domain.num_owned_cells)
+        continue;
+      double R[11] = {}, x[9] = {};
+      const auto& nodes = _domain.cells[f.cell];
+      for (int v = 0; v < 3; ++v)
+        for (int d = 0; d < 2; ++d)
+          x[3 * v + d] = _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
+      _load_R(R, {}, c, x, f.local);
+      for (int i = 0; i < 9; ++i)
+        force[3 * nodes[i / 3] + i % 3] += R[i];
+    }
+  }
+}
+
+void Problem::load_jacobian(int cell, double* J) const
+{
+  if (_facets_of_cell.empty())
+    return;
+  for (const mesh::Facet& f : _facets_of_cell[cell])
+  {
+    Constants c = _constants;
+    for (const Load& load : _loads)
+      if (load.boundary == f.boundary)
+        c.p_a = load.pressure;
+    double A[121] = {}, x[9] = {};
+    const auto& nodes = _domain.cells[cell];
+    for (int v = 0; v < 3; ++v)
+      for (int d = 0; d < 2; ++d)
+        x[3 * v + d] = _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
+    _load_J(A, {}, c, x, f.local);
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < 9; ++j)
+        J[9 * i + j] += A[11 * i + j];
+  }
+}
+
+void Problem::assemble_residual(double* r)
+{
+  const auto z = _z.array();
+  auto force = _force.mutable_array();
+  std::ranges::fill(force, 0.0);
+  double size[3] = {0, 0, 0}; // squares: cell forces, strains, held increments
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+  {
+    double R[9];
+    _element.residual(*_state, c, z, _constants, R);
+    const auto& nodes = _domain.cells[c];
+    for (int i = 0; i < 9; ++i)
+    {
+      force[3 * nodes[i / 3] + i % 3] += R[i];
+      if (i % 3 != 2)
+        size[0] += R[i] * R[i];
+    }
+    const double V = _element.volume(c) / 3;
+    size[1] += 3 * V * V * (1e-32 + _element.strain_squared(c));
+  }
+  assemble_loads(force);
+  _force.scatter_rev(std::plus<double>());
+
+  double norm[3] = {0, 0, 0};
+  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+  {
+    const bool pressure = i % 3 == 2;
+    r[i] = force[i] / (pressure ? _length : _stress);
+    if (_holder[i] >= 0)
+    {
+      r[i] = z[i] - _increment[i];
+      norm[2] += r[i] * r[i];
+      size[2] += _increment[i] * _increment[i];
+    }
+    else
+      norm[pressure ? 1 : 0] += force[i] * force[i];
+  }
+  double all[6] = {norm[0], norm[1], norm[2], size[0], size[1], size[2]};
+  MPI_Allreduce(MPI_IN_PLACE, all, 6, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  const double tiny = 1e-16 * _length * _stress;
+  _norm_u = std::sqrt(all[0] / (all[3] + tiny * tiny));
+  _norm_p = std::sqrt(all[1] / all[4]);
+  _norm_bc = all[2] > 0 ? std::sqrt(all[2] / (all[5] + 1e-32 * _length * _length)) : 0;
+}
+
+PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const auto scope = self._clock.scope("1a law and assembly");
+  self.unpack(x);
+  PetscScalar* out = nullptr;
+  PetscCall(VecGetArray(r, &out));
+  if (self.evaluate())
+    self.assemble_residual(out);
+  else // a norm that no line search accepts
+    std::fill_n(out, 3 * self._domain.num_owned_nodes,
+                std::numeric_limits<double>::quiet_NaN());
+  PetscCall(VecRestoreArray(r, &out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const auto scope = self._clock.scope("1a law and assembly");
+  const auto& d = self._domain;
+  // displacement rows in units of G, volume rows of l; pressures G / l
+  const double row[2] = {1 / self._stress, 1 / self._length};
+  const double column[2] = {1, self._stress / self._length};
+  for (int c = 0; c < d.num_owned_cells; ++c)
+  {
+    double* A = self._coo.data() + 81 * static_cast<std::size_t>(c);
+    self._element.jacobian(*self._state, c, self._z.array(), self._constants,
+                           A);
+    self.load_jacobian(c, A);
+    for (int i = 0; i < 9; ++i)
+    {
+      const bool held = self._holder[3 * d.cells[c][i / 3] + i % 3] >= 0;
+      for (int j = 0; j < 9; ++j)
+        A[9 * i + j] *= held ? 0 : row[i % 3 == 2] * column[j % 3 == 2];
+    }
+  }
+  double* diagonal
+      = self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
+  for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
+    diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
+  PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Shorten a Newton step that would invert a cell.
+PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y,
+                                 PetscBool* changed, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const auto& d = self._domain;
+  dolfinx::la::Vector<double> step(node_map(d), 3);
+  const PetscScalar* from = nullptr;
+  PetscCall(VecGetArrayRead(y, &from));
+  std::copy_n(from, 3 * d.num_owned_nodes, step.mutable_array().begin());
+  PetscCall(VecRestoreArrayRead(y, &from));
+  step.scatter_fwd();
+  const auto z = self._z.array();
+  double share = 1;
+  for (int c = 0; c < d.num_owned_cells; ++c)
+  {
+    std::array<std::array<double, 2>, 3> x, v;
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 2; ++i)
+      {
+        const int n = d.cells[c][k];
+        x[k][i] = self._state->x[2 * n + i] + z[3 * n + i];
+        v[k][i] = -step.array()[3 * n + i];
+      }
+    const auto cross = [](const auto& a, const auto& b)
+    {
+      return (a[1][0] - a[0][0]) * (b[2][1] - b[0][1])
+             - (a[1][1] - a[0][1]) * (b[2][0] - b[0][0]);
+    };
+    // twice the area along the step: a + b t + c t^2, kept above a tenth of a
+    const double a = 0.9 * cross(x, x), b = cross(x, v) + cross(v, x),
+                 q = cross(v, v);
+    const double root = b * b - 4 * a * q;
+    if (root < 0 or (b >= 0 and q >= 0))
+      continue;
+    const double t = 2 * a / (-b + std::sqrt(root));
+    if (t > 0)
+      share = std::min(share, t);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &share, 1, MPI_DOUBLE, MPI_MIN, d.comm);
+  *changed = share < 1 ? PETSC_TRUE : PETSC_FALSE;
+  if (share < 1)
+    PetscCall(VecScale(y, 0.9 * share));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
+                                  PetscReal fnorm, SNESConvergedReason* reason,
+                                  void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const double tol = self._options.tolerance;
+  *reason = SNES_CONVERGED_ITERATING;
+  if (not std::isfinite(fnorm))
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (self._norm_u <= tol and self._norm_p <= tol
+           and self._norm_bc <= tol)
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  void* log = nullptr;
+  PetscCall(SNESGetApplicationContext(snes, &log));
+  static_cast<NewtonLog*>(log)->residuals.push_back(
+      std::max({self._norm_u, self._norm_p, self._norm_bc}));
+  (void)it;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void Problem::name_worst(NewtonLog& log)
+{
+  log.failure = _failure;
+  if (_failed)
+    return;
+  // Newton stalled: the cell of the node with the largest force left over
+  struct
+  {
+    double force;
+    int rank;
+  } worst{-1, dolfinx::MPI::rank(_domain.comm)};
+  int node = 0;
+  const auto force = _force.array();
+  for (int n = 0; n < _domain.num_owned_nodes; ++n)
+  {
+    const double f = std::hypot(_holder[3 * n] < 0 ? force[3 * n] : 0.0,
+                                _holder[3 * n + 1] < 0 ? force[3 * n + 1] : 0.0);
+    if (f > worst.force)
+    {
+      worst.force = f;
+      node = n;
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC,
+                _domain.comm);
+  int cell = -1;
+  if (worst.rank == dolfinx::MPI::rank(_domain.comm))
+    for (int c = 0; c < _domain.num_cells() and cell < 0; ++c)
+      if (std::ranges::find(_domain.cells[c], node) != _domain.cells[c].end())
+        cell = c;
+  agree_on_failure(cell, "Newton did not converge");
+  log.failure = _failure;
+}
+
+bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
+{
+  const auto scope = _clock.scope("1 lagrangian");
+  _state = &state;
+  _conditions->increments(t0, t1, _increment);
+  _loads = _conditions->loads(t1);
+  const auto g = _conditions->gravity(t1);
+  const auto g_n = t0 > 0 ? _conditions->gravity(t0) : _gravity;
+  _constants.dt = t1 - t0;
+  std::ranges::copy(g, _constants.g);
+  std::ranges::copy(g_n, _constants.g_n);
+  _facets_of_cell.clear();
+  for (const Load& load : _loads)
+    for (const mesh::Facet& f : _domain.facets)
+      if (load.pressure != 0 and f.boundary == load.boundary
+          and f.cell < _domain.num_owned_cells)
+      {
+        _facets_of_cell.resize(_domain.num_owned_cells);
+        _facets_of_cell[f.cell].push_back(f);
+      }
+
+  // First from the last step's motion, then from rest.
+  for (const bool guessed : {true, false})
+  {
+    if (guessed and _guess.empty())
+      continue;
+    log.residuals.clear();
+    log.failure = {};
+    PetscScalar* x = nullptr;
+    VecGetArray(_x, &x);
+    for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+      if (i % 3 == 2)
+        x[i] = state.p[i / 3] * _length / _stress;
+      else if (not guessed)
+        x[i] = 0;
+      else
+        x[i] = _holder[i] >= 0 ? _increment[i]
+                               : _guess[i] * (t1 - t0) / _guess_dt;
+    VecRestoreArray(_x, &x);
+    SNESSetApplicationContext(_snes, &log);
+    _failed = false;
+    SNESSolve(_snes, nullptr, _x);
+    PetscInt iterations = 0;
+    SNESGetIterationNumber(_snes, &iterations);
+    log.iterations += static_cast<int>(iterations);
+    SNESConvergedReason reason;
+    SNESGetConvergedReason(_snes, &reason);
+    if (reason > 0)
+    {
+      _element.accept(state, _z.array(), t1 - t0);
+      _guess.assign(_z.array().begin(),
+                    _z.array().begin() + 3 * _domain.num_owned_nodes);
+      _guess_dt = t1 - t0;
+      _gravity = g;
+      return true;
+    }
+    name_worst(log);
+  }
+  _guess.clear();
+  return false;
+}
+
+std::vector<std::array<double, 2>> Problem::reactions() const
+{
+  std::vector<double> sum(2 * _domain.boundary_names.size(), 0);
+  const auto force = _force.array();
+  const double turn
+      = _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
+  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+    if (_holder[i] >= 0)
+      sum[2 * _holder[i] + i % 3] += turn * force[i];
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()),
+                MPI_DOUBLE, MPI_SUM, _domain.comm);
+  std::vector<std::array<double, 2>> out(sum.size() / 2);
+  for (std::size_t b = 0; b < out.size(); ++b)
+    out[b] = {sum[2 * b], sum[2 * b + 1]};
+  return out;
+}
+
+std::array<double, 2> Problem::mismatch(const State& state) const
+{
+  double sum[3] = {0, 0, static_cast<double>(_domain.num_owned_cells)};
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+  {
+    const auto [i, j, k] = _domain.cells[c];
+    const double p = (state.p[i] + state.p[j] + state.p[k]) / 3;
+    sum[0] += (state.P[c] - p) * (state.P[c] - p);
+    const double d = _element.theta(c) - _element.ln_J(c);
+    sum[1] += d * d;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  return {std::sqrt(sum[0] / sum[2]), std::sqrt(sum[1] / sum[2])};
+}
+} // namespace mmale::lagrangian

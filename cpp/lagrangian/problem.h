@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "conditions.h"
+#include "element.h"
+#include "output/clock.h"
+#include <array>
+#include <dolfinx/la/Vector.h>
+#include <petscsnes.h>
+#include <string>
+
+/// Equilibrium at the end of a step, by PETSc SNES (METHOD.md, step 1).
+namespace mmale::lagrangian
+{
+/// Why a step failed, the same on all ranks.
+struct Failure
+{
+  std::string cause;
+  std::int64_t cell = -1;              ///< number in the grid
+  std::array<double, 2> place = {0, 0}; ///< its centre [m]
+};
+
+/// How Newton went.
+struct NewtonLog
+{
+  int iterations = 0;
+  std::vector<double> residuals; ///< relative, one an iteration
+  Failure failure;               ///< when it did not converge
+};
+
+/// Unknowns and equations are scaled so that both have order one: displacement
+/// in metres, pressure in G / l, forces in G, volumes in l, with the shear
+/// modulus G and l the root of the mean cell area.
+class Problem
+{
+public:
+  Problem(const mesh::Domain& domain, const material::AnyLaw& law,
+          scene::Symmetry symmetry, const scene::Solver& options,
+          output::Clock& clock);
+  ~Problem();
+  Problem(const Problem&) = delete;
+  Problem& operator=(const Problem&) = delete;
+
+  /// Boundary conditions of the stage to come. Collective.
+  void set_stage(const scene::Stage& stage);
+
+  /// Find the end of a step; `state` is advanced only when this succeeds.
+  /// Collective.
+  ///
+  /// @param[in] t0,t1 step, counted from the start of the stage [s]
+  [[nodiscard]] bool solve(State& state, double t0, double t1, NewtonLog& log);
+
+  /// Force of each named boundary on the body, (x, y); per unit thickness, or
+  /// of the whole circumference [N/m or N]. Of the last solve. Collective.
+  std::vector<std::array<double, 2>> reactions() const;
+
+  /// RMS over the cells of (P - p) and of (theta - ln J). Collective.
+  std::array<double, 2> mismatch(const State& state) const;
+
+  const Element& element() const { return _element; }
+
+private:
+  static PetscErrorCode function(SNES, Vec, Vec, void*);
+  static PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*);
+  static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
+  static PetscErrorCode converged(SNES, PetscInt, PetscReal, PetscReal,
+                                  PetscReal, SNESConvergedReason*, void*);
+  void create_matrix();
+  void create_solver();
+  void unpack(Vec x);
+  bool evaluate();
+  void assemble_residual(double* r);
+  void assemble_loads(std::span<double> r);
+  void load_jacobian(int cell, double* J) const;
+  void agree_on_failure(int cell, const std::string& why);
+  void name_worst(NewtonLog& log);
+
+  const mesh::Domain& _domain;
+  scene::Symmetry _symmetry;
+  scene::Solver _options;
+  output::Clock& _clock;
+  Element _element;
+  Kernel _load_R, _load_J;
+  double _stress, _length; ///< scales [Pa], [m]
+
+  std::optional<Conditions> _conditions;
+  std::vector<int> _holder;             ///< owned and ghost unknowns
+  std::vector<double> _increment;       ///< of held unknowns
+  std::vector<double> _guess;           ///< last step's increment
+  double _guess_dt = 0;
+  std::vector<Load> _loads;
+  std::vector<std::vector<mesh::Facet>> _facets_of_cell; ///< loaded ones
+  Constants _constants;
+  std::array<double, 2> _gravity = {0, 0}; ///< at the end of the last step
+
+  const State* _state = nullptr;        ///< during a solve
+  dolfinx::la::Vector<double> _z;       ///< unknowns with units
+  dolfinx::la::Vector<double> _force;   ///< residual with units
+  std::vector<double> _coo;
+  double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
+  Failure _failure;
+  bool _failed = false;
+
+  SNES _snes = nullptr;
+  Mat _J = nullptr;
+  Vec _x = nullptr, _r = nullptr;
+};
+} // namespace mmale::lagrangian

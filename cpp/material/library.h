@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "elastic.h"
+#include "j2.h"
+#include "scene/parameter.h"
+#include <map>
+#include <variant>
+
+namespace mmale::material
+{
+/// Every law. A new one is its file and its name here; the scene reader and
+/// the conformance tests walk this list.
+using AnyLaw = std::variant<Elastic, J2>;
+
+/// Names, parameters and ranges of all laws, for the scene reader.
+std::vector<scene::LawInfo> law_infos();
+
+/// A law filled from a scene that has no complaints left.
+///
+/// @throws std::invalid_argument for an unknown law or parameter
+AnyLaw make_law(const std::string& name,
+                const std::map<std::string, double>& parameters);
+} // namespace mmale::material

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The MINI element of METHOD.md, section 2, shared by all operators.
+
+A nodal block (ux, uy, p) on P1 plus a hierarchical cubic bubble (bx, by).
+Local unknowns: [ux uy p] of vertices 0, 1, 2, then bx, by; the solver condenses
+the last two cell by cell.
+
+u is the displacement increment of the step, p the total pressure at its end.
+The nodal terms take one point (the centroid), so that the stress of a cell, the
+mean pressure and the volume ratio are one number each, in the plane and about an
+axis; the bubble's terms are integrated exactly.
+"""
+
+import basix.ufl
+from ufl import Measure, FunctionSpace, Mesh, SpatialCoordinate, as_vector, grad
+
+cell = "triangle"
+node = basix.ufl.element("Lagrange", cell, 1, shape=(3,))
+bubble = basix.ufl.element("Bubble", cell, 3, shape=(2,))
+mini = basix.ufl.mixed_element([node, bubble])
+
+mesh = Mesh(basix.ufl.element("Lagrange", cell, 1, shape=(2,)))
+W = FunctionSpace(mesh, mini)
+B = FunctionSpace(mesh, bubble)
+x = SpatialCoordinate(mesh)
+
+# Two kernels a form, told apart by a number, since FFCx 0.9 mixes up the values of
+# a coefficient at the points of two rules within one kernel. The solver calls both.
+dx = Measure(
+    "dx", domain=mesh, subdomain_id=1, metadata={"quadrature_degree": 1}
+)
+dx_bubble = Measure(
+    "dx", domain=mesh, subdomain_id=2, metadata={"quadrature_degree": 5}
+)
+
+
+def per_cell(*shape):
+    """Space of one number, vector or matrix a cell."""
+    return FunctionSpace(mesh, basix.ufl.element("DG", cell, 0, shape=shape))
+
+
+def split(z):
+    """Displacement, pressure and bubble displacement of a function."""
+    nodal, bubble_displacement = z
+    return as_vector((nodal[0], nodal[1])), nodal[2], bubble_displacement
+
+
+def gradient(v, r, axisymmetric):
+    """(xx, xy, yx, yy, zz) of grad v; zz is the hoop strain v_r / r."""
+    g = grad(v)
+    hoop = v[0] / r if axisymmetric else 0 * v[0]
+    return as_vector((g[0, 0], g[0, 1], g[1, 0], g[1, 1], hoop))
+
+
+def divergence(h):
+    """Trace of a gradient in vector form."""
+    return h[0] + h[3] + h[4]
+
+
+def strain(h):
+    """Symmetric part of a gradient, (xx, xy, yx, yy, zz)."""
+    return as_vector((h[0], (h[1] + h[2]) / 2, (h[1] + h[2]) / 2, h[3], h[4]))
+
+
+def deviator(h):
+    """A tensor in vector form less its mean normal part."""
+    m = divergence(h) / 3
+    return as_vector((h[0] - m, h[1], h[2], h[3] - m, h[4] - m))
