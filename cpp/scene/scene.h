@@ -87,7 +87,12 @@ struct TimeSeries
 {
   std::vector<double> time;  ///< ascending; empty for a constant
   std::vector<double> value; ///< same length, or one number
+
+  /// Value at time t; before the first and after the last time it is held.
   double operator()(double t) const;
+
+  /// Exact integral from 0 to t >= 0: the displacement of a velocity.
+  double integral(double t) const;
 };
 
 /// What holds on a named boundary during a stage.

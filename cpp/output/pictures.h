@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "output/checks.h"
+#include "scene/scene.h"
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+/// PNG pictures of a run, drawn without being asked.
+///
+/// In: what the scene wants drawn and what the run is checked against. Out:
+/// `pictures.json` in the folder of the run, and the pictures that `draw.py`
+/// makes from it, from curves.csv and from the field files.
+namespace mmale::output
+{
+/// A horizontal line that curves are held against.
+struct ReferenceLine
+{
+  double value = 0;
+  std::string label;
+};
+
+/// Curves over one abscissa in one picture.
+struct Chart
+{
+  std::string name;                ///< of the file, without ".png"
+  std::string x;                   ///< column of curves.csv
+  std::vector<std::string> y = {}; ///< columns of curves.csv
+  std::vector<ReferenceLine> references = {};
+};
+
+/// What a field is, for its colour bar.
+struct FieldInfo
+{
+  std::string unit; ///< empty for a number without unit
+};
+
+/// What draw.py is told.
+struct Pictures
+{
+  std::string title;
+  std::vector<Chart> charts = {};
+  std::map<std::string, scene::Picture> fields; ///< by name of the file
+  std::map<std::string, FieldInfo> info;        ///< by name of the field
+  std::string field_file = "fields.pvd";        ///< in the folder of the run
+  std::string arrows = "velocity";              ///< nodal field drawn as arrows
+  bool axisymmetric = false;
+};
+
+/// Charts that show every curve once: those with a reference at a place over
+/// that place's curve with the reference as a line, the others over time.
+///
+/// @param[in] curves     columns of curves.csv
+/// @param[in] time       the column that is the time
+std::vector<Chart> charts(std::span<const std::string> curves,
+                          std::span<const Reference> references,
+                          const std::string& time = "time");
+
+/// Pictures of a scene: its own and the charts.
+Pictures pictures(const scene::Scene& scene,
+                  std::span<const std::string> curves,
+                  std::span<const Reference> references,
+                  const std::map<std::string, FieldInfo>& info);
+
+/// Text of pictures.json.
+std::string to_json(const Pictures& pictures);
+
+/// Write pictures.json and draw; on one rank only.
+///
+/// @param[in] folder of the run
+/// @return empty, or in words why there are no pictures (no Python, no
+/// matplotlib, unwritable folder); the run itself is not at fault
+[[nodiscard]] std::string draw(const std::filesystem::path& folder,
+                               const Pictures& pictures);
+
+/// Where draw.py is: MMALE_DRAW if set, else as installed or built.
+std::filesystem::path draw_program();
+} // namespace mmale::output

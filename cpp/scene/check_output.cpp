@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "scene/check_parts.h"
+#include "scene/schema.h"
+#include <algorithm>
+#include <cmath>
+#include <format>
+
+namespace mmale::scene
+{
+namespace
+{
+template <class T>
+std::vector<std::string> names_of(const std::map<std::string, T>& tables)
+{
+  std::vector<std::string> list;
+  for (const auto& [name, table] : tables)
+    list.push_back(name);
+  return list;
+}
+
+/// A curve of a tracer: it names one and nothing else.
+void check_tracer_curve(const Scene& scene, const Curve& c,
+                        const std::string& key, Complaints& out)
+{
+  const auto known = names_of(scene.tracer);
+  if (c.tracer.empty())
+    out.push_back({key + ".tracer",
+                   missing("Tracer of " + c.quantity, "",
+                           known.empty() ? "but none is defined"
+                                         : "one of " + join(known)),
+                   {}});
+  else if (not scene.tracer.contains(c.tracer))
+    out.push_back(
+        {key + ".tracer",
+         "no tracer '" + c.tracer + "', " + suggestion(c.tracer, known),
+         {}});
+  if (not c.boundary.empty())
+    out.push_back({key + ".boundary", "is not used by " + c.quantity, {}});
+  if (c.point)
+    out.push_back({key + ".point", "is not used by " + c.quantity, {}});
+}
+
+/// A curve of the body: it names a boundary or a point.
+void check_body_curve(const Scene& scene, const Curve& c,
+                      const std::string& key, Complaints& out)
+{
+  const bool reaction = c.quantity.starts_with("reaction");
+  if (scene.motion)
+    out.push_back({key + ".quantity",
+                   c.quantity + " is not known with a prescribed motion",
+                   {}});
+  if (not c.tracer.empty())
+    out.push_back({key + ".tracer", "is not used by " + c.quantity, {}});
+  if (reaction and c.point)
+    out.push_back({key + ".point",
+                   "a reaction belongs to a boundary, not to a point",
+                   {}});
+  else if (c.point and not c.boundary.empty())
+    out.push_back({key + ".point", "give boundary or point, not both", {}});
+  if (c.boundary.empty() and (reaction or not c.point))
+    out.push_back({key + ".boundary",
+                   missing("Boundary of " + c.quantity, "",
+                           "one of " + join(boundary_names(scene)))
+                       + (reaction ? "" : "; or a point"),
+                   {}});
+  const auto known = boundary_names(scene);
+  if (not c.boundary.empty()
+      and std::ranges::find(known, c.boundary) == known.end())
+    out.push_back(
+        {key + ".boundary",
+         "no boundary '" + c.boundary + "', " + suggestion(c.boundary, known),
+         {}});
+  if (c.point and not may_be_inside(scene.mesh, *c.point))
+    out.push_back(
+        {key + ".point", words(*c.point) + " lies outside the mesh", {}});
+}
+
+void check_curves(const Scene& scene, Complaints& out)
+{
+  for (const auto& [name, c] : scene.output.curve)
+  {
+    const std::string key = "output.curve." + name;
+    if (name == "time" or name == "step")
+      out.push_back({key, "is a column of its own; take another name", {}});
+    if (c.divide_by == 0)
+      out.push_back({key + ".divide_by", "must not be 0", {}});
+    if (not c.breadth.empty() and not c.quantity.starts_with("reaction"))
+      out.push_back({key + ".breadth", "is for reactions only", {}});
+    if (std::ranges::find(quantities, c.quantity) == quantities.end())
+      continue;
+    if (c.quantity.starts_with("tracer"))
+      check_tracer_curve(scene, c, key, out);
+    else
+      check_body_curve(scene, c, key, out);
+  }
+}
+
+void check_pictures(const Scene& scene, const Libraries& libraries, double end,
+                    Complaints& out)
+{
+  std::vector<std::string> fields = libraries.fields;
+  for (const auto& [name, tracer] : scene.tracer)
+    fields.push_back(name);
+  for (const auto& [name, picture] : scene.output.picture)
+  {
+    const std::string key = "output.picture." + name;
+    if (not libraries.fields.empty() and not picture.field.empty()
+        and std::ranges::find(fields, picture.field) == fields.end())
+      out.push_back({key + ".field",
+                     "no field '" + picture.field + "', "
+                         + suggestion(picture.field, fields),
+                     {}});
+    if (picture.field.empty() and not picture.mesh)
+      out.push_back({key, "shows nothing: give a field or mesh = true", {}});
+    // The sum of durations carries round-off.
+    if (picture.at < infinity and picture.at > end * (1 + 1e-12))
+      out.push_back(
+          {key + ".at",
+           std::format("is {} s, the run ends at {} s", picture.at, end),
+           {}});
+  }
+}
+} // namespace
+
+void check_tracers(const Scene& scene, Complaints& out)
+{
+  const auto corners = corners_of(scene.mesh);
+  for (const auto& [name, t] : scene.tracer)
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const auto along = [d](const Point& x) { return x[d]; };
+      const auto [low, high] = std::ranges::minmax(corners, {}, along);
+      if (t.centre[d] + t.radius <= low[d] or t.centre[d] - t.radius >= high[d])
+      {
+        out.push_back({"tracer." + name,
+                       std::format("the circle around {} of radius {} m lies "
+                                   "outside the mesh",
+                                   words(t.centre), t.radius),
+                       {}});
+        break;
+      }
+    }
+}
+
+void check_output(const Scene& scene, const Libraries& libraries,
+                  Complaints& out)
+{
+  double end = 0;
+  for (const Stage& stage : scene.stage)
+    end += stage.duration;
+  check_curves(scene, out);
+  check_pictures(scene, libraries, end, out);
+  for (const auto& [name, line] : scene.output.line)
+  {
+    const std::string key = "output.line." + name;
+    if (line.from == line.to)
+      out.push_back({key + ".to", "is the start of the line too", {}});
+    if (not may_be_inside(scene.mesh, line.from))
+      out.push_back(
+          {key + ".from", words(line.from) + " lies outside the mesh", {}});
+    if (not may_be_inside(scene.mesh, line.to))
+      out.push_back(
+          {key + ".to", words(line.to) + " lies outside the mesh", {}});
+  }
+  if (scene.output.fields_every > end)
+    out.push_back({"output.fields_every",
+                   std::format("is {} s, the run lasts {} s",
+                               scene.output.fields_every, end),
+                   {}});
+}
+} // namespace mmale::scene

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "scene/check.h"
+#include <array>
+
+/// The checks that look at several keys together, one function a topic.
+///
+/// Numbers may still be NaN here (that is another complaint): every check is
+/// written so that it then stays silent.
+namespace mmale::scene
+{
+using Complaints = std::vector<Complaint>;
+
+void check_mesh(const Scene& scene, Complaints& out);
+void check_boundaries(const Scene& scene, Complaints& out);
+void check_materials(const Scene& scene, const Libraries& libraries,
+                     Complaints& out);
+void check_stages(const Scene& scene, Complaints& out);
+void check_remap(const Scene& scene, const Libraries& libraries,
+                 Complaints& out);
+void check_tracers(const Scene& scene, Complaints& out);
+void check_output(const Scene& scene, const Libraries& libraries,
+                  Complaints& out);
+
+/// Corners of the domain, counter-clockwise from (left, bottom); NaN where
+/// the scene does not tell [m].
+std::array<Point, 4> corners_of(const Mesh& mesh);
+
+/// False when `x` lies outside the domain by more than round-off; true too
+/// when the domain is not known or not convex.
+bool may_be_inside(const Mesh& mesh, const Point& x);
+
+/// Names that stages and curves may use: the sides and the named boundaries.
+std::vector<std::string> boundary_names(const Scene& scene);
+
+/// Side that a boundary name belongs to; "" when there is none.
+std::string side_of(const Scene& scene, const std::string& boundary);
+
+/// Ends of a side [m], in the corners' order.
+std::array<Point, 2> side_ends(const Mesh& mesh, const std::string& side);
+
+/// "(0.5, 1.5)".
+std::string words(const Point& x);
+} // namespace mmale::scene

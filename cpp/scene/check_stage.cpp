@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "scene/check_parts.h"
+#include <algorithm>
+#include <cmath>
+#include <format>
+
+namespace mmale::scene
+{
+namespace
+{
+/// What is prescribed along one direction of a boundary.
+struct Direction
+{
+  const char* name;
+  bool displacement, velocity, traction;
+  bool moved() const { return displacement or velocity; }
+};
+
+/// Directions that a roller on this side blocks: {x, y}. A slanted side
+/// blocks a mixture of both.
+std::array<bool, 2> blocked_by_roller(const Mesh& mesh, const std::string& side)
+{
+  const auto [a, b] = side_ends(mesh, side);
+  const double slack = 1e-9 * std::hypot(b[0] - a[0], b[1] - a[1]);
+  return {std::abs(b[1] - a[1]) > slack, std::abs(b[0] - a[0]) > slack};
+}
+
+/// One condition: at most one thing may hold along a direction.
+void check_condition(const Scene& scene, const std::string& boundary,
+                     const Condition& c, const std::string& key,
+                     Complaints& out)
+{
+  const std::array<Direction, 2> directions = {
+      {{"x", c.displacement_x.has_value(), c.velocity_x.has_value(),
+        c.traction_x.has_value()},
+       {"y", c.displacement_y.has_value(), c.velocity_y.has_value(),
+        c.traction_y.has_value()}}};
+  const auto blocked = blocked_by_roller(scene.mesh, side_of(scene, boundary));
+  bool pressed_in_vain = c.fixed or c.roller;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const Direction& along = directions[d];
+    const std::string displacement = key + ".displacement_" + along.name;
+    const std::string velocity = key + ".velocity_" + along.name;
+    const std::string traction = key + ".traction_" + along.name;
+    const std::string& moving = along.displacement ? displacement : velocity;
+    const char* held = c.fixed                   ? "fixed"
+                       : c.roller and blocked[d] ? "a roller"
+                                                 : nullptr;
+    if (along.displacement and along.velocity)
+      out.push_back({velocity,
+                     std::format("displacement_{} is given too; a direction "
+                                 "has one of the two",
+                                 along.name),
+                     {}});
+    if (held and along.moved())
+      out.push_back({moving, std::format("the boundary is {} too", held), {}});
+    if (along.traction and (held or along.moved()))
+      out.push_back({traction,
+                     std::format("has no effect: the boundary is {}",
+                                 held ? held : "moved in this direction"),
+                     {}});
+    pressed_in_vain = pressed_in_vain or (blocked[d] and along.moved());
+  }
+  if (c.fixed and c.roller)
+    out.push_back({key + ".roller", "the boundary is fixed too", {}});
+  if (c.pressure and pressed_in_vain)
+    out.push_back({key + ".pressure",
+                   "has no effect: the boundary is held or moved along its "
+                   "normal",
+                   {}});
+}
+
+void check_steps(const Stage& stage, const std::string& key, Complaints& out)
+{
+  const auto ordered =
+      [&](const char* name, double x, const char* limit_name, double limit)
+  {
+    if (x > 0 and limit > 0 and x > limit)
+      out.push_back(
+          {key + "." + name,
+           std::format("must be <= {} of {} s, is {}", limit_name, limit, x),
+           {}});
+  };
+  ordered("step", stage.step, "duration", stage.duration);
+  ordered("step_min", stage.step_min, "step", stage.step);
+  ordered("step", stage.step, "step_max", stage.step_max);
+  ordered("step_max", stage.step_max, "duration", stage.duration);
+}
+
+void check_motion(const Scene& scene, Complaints& out)
+{
+  if (scene.motion->revolutions == 0)
+    out.push_back({"motion.revolutions", "must not be 0", {}});
+  if (scene.stage.size() > 1)
+    out.push_back({"motion", "turns over one stage; give exactly one", {}});
+  for (const auto& [name, material] : scene.material)
+    out.push_back({"material." + name,
+                   "is not used: with a prescribed motion nothing is "
+                   "strained",
+                   {}});
+  for (std::size_t i = 0; i < scene.stage.size(); ++i)
+  {
+    const std::string key = "stage." + stage_label(scene.stage, i);
+    if (not scene.stage[i].boundary.empty())
+      out.push_back(
+          {key + ".boundary", "is not used: the motion is prescribed", {}});
+    if (scene.stage[i].gravity)
+      out.push_back(
+          {key + ".gravity", "is not used: the motion is prescribed", {}});
+  }
+}
+
+void check_parameters(const Material& material, const LawInfo& law,
+                      const std::string& key, Complaints& out)
+{
+  std::vector<std::string> known;
+  for (const ParameterInfo& p : law.parameters)
+  {
+    known.push_back(p.name);
+    const std::string unit = p.unit.empty() or p.unit == "-" ? "" : p.unit;
+    const auto given = material.parameters.find(p.name);
+    if (given == material.parameters.end() or std::isnan(given->second))
+    {
+      if (p.is_required())
+        out.push_back({key + "." + p.name,
+                       missing(p.sentence, p.unit, p.range.words()) + " (law "
+                           + law.name + ")",
+                       {}});
+    }
+    else if (not p.range.holds(given->second))
+      out.push_back(
+          {key + "." + p.name,
+           std::format("must be {}{}, is {}",
+                       p.range.words().empty() ? "finite" : p.range.words(),
+                       unit.empty() ? "" : " " + unit, given->second),
+           {}});
+  }
+  known.push_back("law");
+  for (const auto& [name, x] : material.parameters)
+    if (std::ranges::find(known, name) == known.end())
+      out.push_back(
+          {key + "." + name,
+           "unknown for law '" + law.name + "', " + suggestion(name, known),
+           {}});
+}
+} // namespace
+
+void check_materials(const Scene& scene, const Libraries& libraries,
+                     Complaints& out)
+{
+  if (scene.material.empty() and not scene.motion)
+    out.push_back({"material",
+                   "missing: a table [material.NAME] with law and its numbers",
+                   {}});
+  if (scene.material.size() > 1 and not scene.motion)
+    out.push_back({"material",
+                   std::format("{} are given; several materials need mixed "
+                               "cells, which are not there yet: give exactly "
+                               "one",
+                               scene.material.size()),
+                   {}});
+  std::vector<std::string> laws;
+  for (const LawInfo& law : libraries.laws)
+    laws.push_back(law.name);
+  for (const auto& [name, material] : scene.material)
+  {
+    const std::string key = "material." + name;
+    const auto law =
+        std::ranges::find(libraries.laws, material.law, &LawInfo::name);
+    if (law != libraries.laws.end())
+      check_parameters(material, *law, key, out);
+    else if (material.law.empty())
+      out.push_back(
+          {key + ".law",
+           missing("Name of the material law", "", "one of " + join(laws)),
+           {}});
+    else
+      out.push_back(
+          {key + ".law",
+           "unknown '" + material.law + "', " + suggestion(material.law, laws),
+           {}});
+  }
+}
+
+void check_stages(const Scene& scene, Complaints& out)
+{
+  if (scene.stage.empty())
+    out.push_back({"stage",
+                   "missing: at least one [[stage]] with name, duration and "
+                   "step",
+                   {}});
+  if (scene.motion)
+    check_motion(scene, out);
+  const auto known = boundary_names(scene);
+  for (std::size_t i = 0; i < scene.stage.size(); ++i)
+  {
+    const Stage& stage = scene.stage[i];
+    const std::string key = "stage." + stage_label(scene.stage, i);
+    for (std::size_t j = 0; j < i; ++j)
+      if (not stage.name.empty() and stage.name == scene.stage[j].name)
+      {
+        out.push_back(
+            {key + ".name",
+             std::format("'{}' is the name of stage {} too", stage.name, j),
+             {}});
+        break;
+      }
+    check_steps(stage, key, out);
+    for (const auto& [name, condition] : stage.boundary)
+    {
+      const std::string where = key + ".boundary." + name;
+      if (std::ranges::find(known, name) == known.end())
+        out.push_back(
+            {where, "no such boundary, " + suggestion(name, known), {}});
+      else
+        check_condition(scene, name, condition, where, out);
+    }
+  }
+}
+
+void check_remap(const Scene& scene, const Libraries& libraries,
+                 Complaints& out)
+{
+  const Remap& remap = scene.remap;
+  if (remap.mode != RemapMode::lagrangian and remap.every == 0
+      and remap.quality_below == 0)
+    out.push_back({"remap",
+                   "never happens: give every > 0 or quality_below > 0, or "
+                   "mode = \"lagrangian\"",
+                   {}});
+  const auto one_of = [&](const char* key, const std::string& name,
+                          const std::vector<std::string>& list,
+                          const char* what)
+  {
+    if (std::ranges::find(list, name) == list.end())
+      out.push_back({key,
+                     std::string("no ") + what + " '" + name + "', "
+                         + suggestion(name, list),
+                     {}});
+  };
+  if (remap.mode == RemapMode::ale)
+    one_of("remap.smoother", remap.smoother, libraries.smoothers, "smoother");
+  if (remap.mode != RemapMode::lagrangian)
+    one_of("remap.transport", remap.transport, libraries.transports,
+           "transport scheme");
+  const auto known = boundary_names(scene);
+  for (const std::string& name : remap.surface)
+  {
+    one_of("remap.surface", name, known, "boundary");
+    if (std::ranges::find(remap.open, name) != remap.open.end())
+      out.push_back({"remap.open", "'" + name + "' is in surface too", {}});
+  }
+  for (const std::string& name : remap.open)
+    one_of("remap.open", name, known, "boundary");
+}
+} // namespace mmale::scene

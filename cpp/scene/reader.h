@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "scene/complaint.h"
+#include "scene/document.h"
+#include "scene/parameter.h"
+#include "scene/scene.h"
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// TOML text and overrides in, a scene and every complaint about it out.
+namespace mmale::scene
+{
+/// A scene as read; it may run when there are no complaints.
+struct Reading
+{
+  Scene scene;
+  std::vector<Complaint> complaints; ///< in the order of the file's lines
+};
+
+/// Text of a file, or why it cannot be had.
+struct FileText
+{
+  std::string text;
+  std::vector<Complaint> complaints;
+};
+
+/// Load a file: missing, a folder, empty and unreadable are complaints.
+FileText load(const std::filesystem::path& path);
+
+/// Read a scene and check it.
+///
+/// @param text       TOML
+/// @param file       its name for messages
+/// @param overrides  changes, in order; the last on a key holds
+/// @param libraries  laws, smoothers and schemes that may be named
+Reading read(std::string_view text, const std::string& file,
+             std::span<const Override> overrides, const Libraries& libraries);
+} // namespace mmale::scene

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "scene/range.h"
+#include "scene/scene.h"
+#include <concepts>
+#include <string>
+#include <vector>
+
+/// The keys of a scene, each named once.
+///
+/// `keys(visit, table)` calls the visitor once for every key of a table, in
+/// the order in which a scene reads well. Reader, range checks, description
+/// and key reference are visitors, so a new key is one line here.
+namespace mmale::scene
+{
+/// What is known of a key besides its type.
+struct Key
+{
+  std::string name;
+  std::string unit;     ///< "m"; "-" without dimension; "" when not a number
+  std::string sentence; ///< what it is, one sentence
+  Range range = {};     ///< of every number in it
+  std::vector<std::string> choices = {}; ///< of a text; empty: anything
+  bool needed = false; ///< a text or name that must be written
+};
+
+template <class T, class... U>
+concept OneOf = (std::same_as<T, U> or ...);
+
+template <class T>
+concept Table =
+    OneOf<T, Mesh, Grading, Boundary, Material, Condition, Stage, Solver, Remap,
+          Tracer, Motion, Curve, Line, Picture, Output, Scene>;
+
+template <class T>
+concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Tangent, RemapMode>;
+
+/// Names of an enumeration, in the order of its values.
+template <Enumeration E>
+const std::vector<std::string>& names()
+{
+  using Names = std::vector<std::string>;
+  if constexpr (std::same_as<E, Symmetry>)
+  {
+    static const Names list = {"plane_strain", "axisymmetric"};
+    return list;
+  }
+  else if constexpr (std::same_as<E, Diagonal>)
+  {
+    static const Names list = {"right", "left", "alternating"};
+    return list;
+  }
+  else if constexpr (std::same_as<E, Element>)
+  {
+    static const Names list = {"mini", "equal_order", "constant_strain"};
+    return list;
+  }
+  else if constexpr (std::same_as<E, Tangent>)
+  {
+    static const Names list = {"consistent", "continuum"};
+    return list;
+  }
+  else
+  {
+    static const Names list = {"lagrangian", "ale", "eulerian"};
+    return list;
+  }
+}
+
+inline const std::vector<std::string> sides = {"left", "right", "bottom",
+                                               "top"};
+inline const std::vector<std::string> mesh_shapes = {"rectangle",
+                                                     "quadrilateral"};
+inline const std::vector<std::string> quantities = {
+    "displacement_x", "displacement_y", "reaction_x", "reaction_y",
+    "pressure",       "tracer_max",     "tracer_min", "tracer_total"};
+
+template <class V>
+void keys(V& v, Grading& g)
+{
+  v({"towards", "m", "Point towards which the cells shrink."}, g.towards);
+  v({"size", "m", "Edge of the cells at that point.", above(0)}, g.size);
+  v({"growth", "-", "Ratio of neighbouring edges.", {1, 2, true, false}},
+    g.growth);
+  v({"radius", "m", "Half-breadth of a uniform fine zone around the point.",
+     at_least(0)},
+    g.radius);
+}
+
+template <class V>
+void keys(V& v, Mesh& m)
+{
+  v({"shape", "", "Shape of the domain.", {}, mesh_shapes, true}, m.shape);
+  v.only_with(
+      "shape", m.shape, mesh_shapes, 0,
+      [&]
+      {
+        v({"width", "m", "Width of the rectangle.", above(0)}, m.width);
+        v({"height", "m", "Height of the rectangle.", above(0)}, m.height);
+        v({"origin", "m", "Lower left corner of the rectangle."}, m.origin);
+      });
+  v.only_with("shape", m.shape, mesh_shapes, 1,
+              [&]
+              {
+                v({"corners", "m",
+                   "Corners, counter-clockwise from the lower left one."},
+                  m.corners);
+              });
+  v({"size", "m", "Edge of the cells away from the grading, instead of cells.",
+     at_least(0)},
+    m.size);
+  v({"cells", "-", "Number of edges along x and y, instead of size.",
+     at_least(0)},
+    m.cells);
+  v({"diagonal", "", "How a quadrilateral is cut into two triangles."},
+    m.diagonal);
+  v({"grading", "", "Smaller cells around a point."}, m.grading);
+  v({"distortion",
+     "-",
+     "Inner nodes are moved at random by up to this share of an edge.",
+     {0, 0.4, false, true}},
+    m.distortion);
+}
+
+template <class V>
+void keys(V& v, Boundary& b)
+{
+  v({"side", "", "Side that it is a part of.", {}, sides, true}, b.side);
+  v({"from", "m", "Its start along the side; default the side's.", unbounded()},
+    b.from);
+  v({"to", "m", "Its end along the side; default the side's.", unbounded()},
+    b.to);
+}
+
+template <class V>
+void keys(V& v, Material& m)
+{
+  v({"law", "", "Name of the material law."}, m.law);
+  v.rest("Numbers of the law, by their names.", m.parameters);
+}
+
+template <class V>
+void keys(V& v, Tracer& t)
+{
+  v({"shape", "", "Shape of the marked region.", {}, {"circle"}, true},
+    t.shape);
+  v({"centre", "m", "Centre of the circle."}, t.centre);
+  v({"radius", "m", "Radius of the circle.", above(0)}, t.radius);
+  v({"inside", "-", "Value inside the region."}, t.inside);
+  v({"outside", "-", "Value outside, also of what flows in."}, t.outside);
+}
+
+template <class V>
+void keys(V& v, Motion& m)
+{
+  v({"centre", "m", "Centre of the rotation."}, m.centre);
+  v({"revolutions", "-", "Turns over the stage; clockwise is negative."},
+    m.revolutions);
+}
+
+template <class V>
+void keys(V& v, Condition& c)
+{
+  v({"fixed", "", "No displacement at all."}, c.fixed);
+  v({"roller", "", "No displacement normal to the side."}, c.roller);
+  v({"displacement_x", "m", "Displacement along x since the stage began."},
+    c.displacement_x);
+  v({"displacement_y", "m", "Displacement along y since the stage began."},
+    c.displacement_y);
+  v({"velocity_x", "m/s", "Rate of the displacement along x."}, c.velocity_x);
+  v({"velocity_y", "m/s", "Rate of the displacement along y."}, c.velocity_y);
+  v({"traction_x", "Pa", "Force on the body along x per area."}, c.traction_x);
+  v({"traction_y", "Pa", "Force on the body along y per area."}, c.traction_y);
+  v({"pressure", "Pa", "Pressure on the body, stays normal to the surface."},
+    c.pressure);
+}
+
+template <class V>
+void keys(V& v, Stage& s)
+{
+  v({"name", "", "Name, also used on the command line.", {}, {}, true}, s.name);
+  v({"duration", "s", "Length of the stage.", above(0)}, s.duration);
+  v({"step", "s", "First time step.", above(0)}, s.step);
+  v({"step_min", "s", "Steps are not halved below; 0 means step / 1024.",
+     at_least(0)},
+    s.step_min);
+  v({"step_max", "s", "Steps do not grow beyond; 0 means step.", at_least(0)},
+    s.step_max);
+  v({"gravity", "m/s^2", "Acceleration along x and y."}, s.gravity);
+  v({"boundary", "", "What holds on a boundary, by its name."}, s.boundary);
+}
+
+template <class V>
+void keys(V& v, Solver& s)
+{
+  v({"element", "", "Element of the Lagrangian step."}, s.element);
+  v({"tangent", "", "Material tangent in Newton's matrix."}, s.tangent);
+  v({"geometric_stiffness", "",
+     "Geometric stiffness in the matrix; off needs more iterations."},
+    s.geometric_stiffness);
+  v({"tolerance", "-",
+     "Newton stops at this residual, relative to the cells' forces.",
+     between(0, 1)},
+    s.tolerance);
+  v({"max_iterations", "-", "A step with more Newton iterations is halved.",
+     at_least(1)},
+    s.max_iterations);
+  v({"lag_jacobian", "-", "The matrix is factorised every n-th iteration.",
+     at_least(1)},
+    s.lag_jacobian);
+  v({"line_search", "", "Line search in Newton's method."}, s.line_search);
+  v({"plastic_bubble", "",
+     "The bubble softens as the cell yields; off gives a noisier pressure."},
+    s.plastic_bubble);
+  v({"petsc", "", "More PETSc options, each with the prefix lagrangian_."},
+    s.petsc);
+}
+
+template <class V>
+void keys(V& v, Remap& r)
+{
+  v({"mode", "", "Where nodes go after a Lagrangian step.", {}, {}, true},
+    r.mode);
+  v({"every", "-", "Steps between remaps; 0 means only on quality.",
+     at_least(0)},
+    r.every);
+  v({"quality_below",
+     "-",
+     "A radius ratio below it asks for a remap; 0 means never.",
+     {0, 1, false, true}},
+    r.quality_below);
+  v({"smoother", "", "Name of the smoother."}, r.smoother);
+  v({"target",
+     "",
+     "Shape that the smoother aims at.",
+     {},
+     {"initial", "equilateral"}},
+    r.target);
+  v({"sweeps", "-", "Sweeps of the smoother.", at_least(1)}, r.sweeps);
+  v({"transport", "", "Name of the transport scheme."}, r.transport);
+  v({"max_loss", "-", "Share of a cell that may leave in one sub-cycle.",
+     between(0, 1)},
+    r.max_loss);
+  v({"surface", "", "Boundaries that are free surfaces."}, r.surface);
+  v({"open", "", "Boundaries through which fields pass."}, r.open);
+}
+
+template <class V>
+void keys(V& v, Curve& c)
+{
+  v({"quantity", "", "What is recorded at every step.", {}, quantities, true},
+    c.quantity);
+  v({"boundary", "", "Named boundary that it belongs to."}, c.boundary);
+  v({"point", "m", "Material point that it belongs to, as at the start."},
+    c.point);
+  v({"tracer", "", "Tracer that it belongs to."}, c.tracer);
+  v({"divide_by", "-", "The quantity is divided by it, in its own unit."},
+    c.divide_by);
+  v({"breadth",
+     "",
+     "Breadth of the boundary that divides the quantity too.",
+     {},
+     {"nominal", "effective"}},
+    c.breadth);
+}
+
+template <class V>
+void keys(V& v, Line& l)
+{
+  v({"from", "m", "Start of the line."}, l.from);
+  v({"to", "m", "End of the line."}, l.to);
+  v({"points", "-", "Number of samples on it.", at_least(2)}, l.points);
+}
+
+template <class V>
+void keys(V& v, Picture& p)
+{
+  v({"field", "", "Field that it shows; without one, the mesh alone."},
+    p.field);
+  v({"mesh", "", "Draw the mesh."}, p.mesh);
+  v({"arrows", "", "Draw the velocity as arrows."}, p.arrows);
+  v({"at",
+     "s",
+     "Time of the run that it shows; default the end.",
+     {0, infinity, false, false}},
+    p.at);
+}
+
+template <class V>
+void keys(V& v, Output& o)
+{
+  v({"fields_every", "s",
+     "Time between outputs of fields; 0 means start, end and pictures.",
+     at_least(0)},
+    o.fields_every);
+  v({"curve", "", "Columns of curves.csv, by name."}, o.curve);
+  v({"line", "", "Values along straight lines, by name."}, o.line);
+  v({"picture", "", "Pictures, by name."}, o.picture);
+}
+
+template <class V>
+void keys(V& v, Scene& s)
+{
+  v({"title", "", "One line for people."}, s.title);
+  v({"symmetry", "", "Plane strain, or the axis at x = 0."}, s.symmetry);
+  v({"mesh", "", "Domain and its triangles."}, s.mesh);
+  v({"boundary", "", "Named parts of sides."}, s.boundary);
+  v({"material", "", "Materials, by name."}, s.material);
+  v({"tracer", "", "Passive scalars carried by the remap, by name."}, s.tracer);
+  v({"motion", "", "A prescribed rigid rotation instead of mechanics."},
+    s.motion);
+  v({"stage", "", "Stages of the run, in order."}, s.stage);
+  v({"solver", "", "Knobs of the Lagrangian step."}, s.solver);
+  v({"remap", "", "Remap between Lagrangian steps."}, s.remap);
+  v({"output", "", "What is written besides the summary."}, s.output);
+}
+} // namespace mmale::scene
