@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What a call of the library can end with. Never thrown, never printed: the
+// host looks at it and recovers. All ranks get the same value.
+#pragma once
+
+#include <string_view>
+
+namespace remap
+{
+/// How smoothing or remapping ended.
+enum class Outcome
+{
+  ok,              ///< done
+  wrong_size,      ///< a span does not fit the mesh; nothing was changed
+  not_finite,      ///< a coordinate is NaN or infinite; nothing was changed
+  inverted_start,  ///< a cell to be worked on has no positive volume at start
+  inverted_target, ///< a cell would have no positive volume at its new place
+  inverted_path,   ///< a cell loses its volume between two valid places
+  too_many_cycles, ///< the stated loss needs more sub-cycles than allowed
+};
+
+/// The outcome in words.
+constexpr std::string_view describe(Outcome outcome)
+{
+  switch (outcome)
+  {
+  case Outcome::ok:
+    return "done";
+  case Outcome::wrong_size:
+    return "an array does not fit the mesh";
+  case Outcome::not_finite:
+    return "a coordinate is not finite";
+  case Outcome::inverted_start:
+    return "a cell has no positive volume before the remap";
+  case Outcome::inverted_target:
+    return "a cell would have no positive volume after the remap";
+  case Outcome::inverted_path:
+    return "a cell loses its volume on the way to its new place";
+  case Outcome::too_many_cycles:
+    return "the move needs more sub-cycles than allowed";
+  }
+  return "unknown";
+}
+} // namespace remap

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// METHOD 4.2 and 4.3: carry fields from a mesh to the same mesh with other node
+// positions. In: old and new coordinates, means over cells and over dual
+// volumes. Out: new means, and a ledger of what passed the boundary. Conserved:
+// the integral of every component.
+#pragma once
+
+#include "remap/geometry/volumes.h"
+#include "remap/host.h"
+#include "remap/mesh.h"
+#include "remap/outcome.h"
+#include "remap/transport/control_volumes.h"
+#include "remap/transport/field.h"
+#include "remap/transport/library.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace remap
+{
+/// How to remap.
+struct Options
+{
+  Geometry geometry = Geometry::plane;
+  Scheme scheme = scheme::LimitedLinear{};       ///< of cell fields
+  Scheme nodal_scheme = scheme::LimitedLinear{}; ///< of nodal fields
+  /// Largest part of itself that a volume may lose in one sub-cycle. Bounds
+  /// hold below 1. Doubled: half the sub-cycles, less smearing, less stability.
+  /// Infinite: never sub-cycle.
+  double max_loss = 0.5;
+  /// More sub-cycles than this end in `too_many_cycles`. Doubled: longer moves.
+  int max_cycles = 200;
+  /// What each boundary marker does; a facet without a marker is closed.
+  std::vector<Boundary> boundaries;
+  int cell_components = 1;  ///< of the widest cell field that will come; or 0
+  int nodal_components = 0; ///< of the widest nodal field; 0: no dual mesh
+
+  /// Every problem, in words; empty is good.
+  [[nodiscard]] std::vector<std::string> complaints() const;
+};
+
+/// What one call did; the same on all ranks but for the counts, which are ours.
+struct Report
+{
+  int cycles = 0;                 ///< sub-cycles
+  double loss = 0;                ///< largest part lost by a volume, undivided
+  std::int32_t moved_nodes = 0;   ///< of this rank, with ghosts
+  std::int32_t touched_cells = 0; ///< of this rank, with ghosts
+  std::int64_t worst_cell = -1;   ///< global number, where a cell inverts
+};
+
+/// Remap with all the room it needs; set up once for a mesh.
+class Remapper
+{
+public:
+  /// @param[in] mesh    kept by reference: must outlive this
+  /// @param[in] options see there
+  /// @throws std::invalid_argument with every complaint, one a line
+  Remapper(const Mesh& mesh, Options options);
+
+  /// Carry fields from x_old to x_new. Collective. Only volumes next to a node
+  /// that moved are worked on. When the outcome is not ok, fields are as they
+  /// were, except after `inverted_path` and `too_many_cycles`: then they may
+  /// stand part of the way, and the host goes back to its copy.
+  ///
+  /// @param[in]     x_old, x_new shape (num_nodes, 2), ghosts up to date [m]
+  /// @param[in,out] cells        fields over cells
+  /// @param[in,out] nodes        fields over dual volumes
+  /// @param[in]     host         communication
+  /// @param[in,out] ledger       grows by what passed the boundary; sized here
+  /// at
+  ///                             its first use
+  [[nodiscard]] Outcome remap(std::span<const double> x_old,
+                              std::span<const double> x_new,
+                              std::span<const Field> cells,
+                              std::span<const Field> nodes, const Host& host,
+                              Ledger& ledger);
+
+  /// What the last call did.
+  [[nodiscard]] const Report& report() const { return _report; }
+  [[nodiscard]] const Options& options() const { return _options; }
+
+private:
+  template <Geometry G>
+  Outcome run(std::span<const Field> cells, std::span<const Field> nodes,
+              const Host& host, Ledger& ledger);
+  [[nodiscard]] bool sizes_fit(std::span<const double> x_old,
+                               std::span<const double> x_new,
+                               std::span<const Field> cells,
+                               std::span<const Field> nodes) const;
+  [[nodiscard]] bool fits(const Field& field, std::int32_t num,
+                          int components) const;
+  void find_touched(std::span<const double> x_old,
+                    std::span<const double> x_new);
+  void exchange_touched(const Host& host);
+  template <Geometry G>
+  void measure(bool with_ring, const Host& host);
+  template <Geometry G>
+  [[nodiscard]] double measure_next(std::span<const double> y);
+  template <Geometry G>
+  void sweep();
+  template <Geometry G>
+  void sweep_dual(std::int32_t c);
+  template <Geometry G>
+  Outcome choose_cycle(double at, int& left, const Host& host);
+  void place(double at);
+  void carry(std::span<const Field> cells, std::span<const Field> nodes,
+             const Host& host);
+  void settle(std::span<const Field> cells, std::span<const Field> nodes,
+              const Host& host, Ledger& ledger);
+
+  const Mesh* _mesh;
+  Options _options;
+  Report _report;
+  ControlVolumes _cells, _nodes;
+  bool _dual = false; // are there nodal fields in this call?
+  std::span<const double> _x_old, _x_new;
+  std::vector<double> _x, _y;             // before and after a sub-cycle
+  std::vector<std::uint8_t> _moved;       // per node
+  std::vector<std::int32_t> _moved_nodes; // list of them
+  std::vector<double> _flags;             // per node, for the halo
+  std::vector<Exchange> _book;            // this call: volumes, cells, nodes
+};
+} // namespace remap

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// METHOD 4.1: the cells around one node, as a smoother sees them.
+#pragma once
+
+#include "remap/quality/quality.h"
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace remap
+{
+/// A cell of a patch seen from the node: (node, a, b) counter-clockwise.
+struct PatchCell
+{
+  Point a, b;
+  quality::Target target; ///< its shape, seen from the node
+};
+
+/// Cells around a node. If `along` is set, the node may only move on that line;
+/// its length is 1.
+struct Patch
+{
+  Point x;
+  std::span<const PatchCell> cells;
+  std::optional<Point> along;
+};
+
+/// A smoother proposes a place for a patch's node. Constraints, acceptance and
+/// safety are not its business. The place must move with a rigid motion of the
+/// patch, and be the node's own place if nothing is to be gained.
+template <class S>
+concept Smoother = requires(const Patch& patch) {
+  { S::name } -> std::convertible_to<std::string_view>;
+  { S::propose(patch) } -> std::same_as<Point>;
+};
+
+/// How the worst cell of a patch is judged.
+enum class Measure
+{
+  radius_ratio, ///< for equilateral targets
+  shape,        ///< against each cell's target
+};
+
+/// Worst quality around a node put at x; not positive if a cell inverts.
+inline double worst(std::span<const PatchCell> cells, Point x, Measure measure)
+{
+  double q = std::numeric_limits<double>::infinity();
+  for (const PatchCell& c : cells)
+  {
+    // NaN must not pass: fmin would drop it.
+    const double one = measure == Measure::radius_ratio
+                           ? quality::radius_ratio(x, c.a, c.b)
+                           : quality::shape(c.target, x, c.a, c.b);
+    if (not(one > 0))
+      return one;
+    q = std::min(q, one);
+  }
+  return q;
+}
+
+/// Foot of p on the patch's line, p itself if it has none.
+inline Point on_line(const Patch& patch, Point p)
+{
+  if (not patch.along)
+    return p;
+  return patch.x + dot(p - patch.x, *patch.along) * *patch.along;
+}
+} // namespace remap

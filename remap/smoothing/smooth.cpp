@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+
+#include "remap/smoothing/smooth.h"
+
+#include "remap/smoothing/colouring.h"
+#include "remap/smoothing/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace remap;
+
+namespace
+{
+/// Halvings of a move that does harm, before the node stays.
+constexpr int max_halvings = 4;
+/// Steps shorter than this part of the patch are not made: a node at its best
+/// place must stay there to the last bit.
+constexpr double least_step = 1e-10;
+
+quality::Target target_of(std::span<const quality::Target> targets,
+                          std::int32_t c)
+{
+  return targets.empty() ? quality::equilateral : targets[c];
+}
+
+double quality_of(const Mesh& mesh, std::span<const double> x, Measure measure,
+                  std::span<const quality::Target> targets, std::int32_t cell)
+{
+  const Triple& n = mesh.cell(cell);
+  const Point a = point(x, n[0]);
+  const Point b = point(x, n[1]);
+  const Point c = point(x, n[2]);
+  return measure == Measure::radius_ratio
+             ? quality::radius_ratio(a, b, c)
+             : quality::shape(target_of(targets, cell), a, b, c);
+}
+} // namespace
+
+std::vector<std::string> SmoothingOptions::complaints() const
+{
+  std::vector<std::string> out;
+  if (not(threshold >= 0 and threshold <= 1))
+    out.push_back("threshold: must lie in [0, 1]");
+  if (rings < 0)
+    out.push_back("rings: must not be negative");
+  if (sweeps < 1)
+    out.push_back("sweeps: must be at least 1");
+  if (not(relaxation > 0 and relaxation <= 1))
+    out.push_back("relaxation: must lie in (0, 1]");
+  return out;
+}
+
+Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
+                     const Host& host)
+    : _mesh(&mesh), _options(std::move(options))
+{
+  if (const auto all = _options.complaints(); not all.empty())
+  {
+    std::string text;
+    for (const std::string& line : all)
+      text += line + "\n";
+    throw std::invalid_argument(text);
+  }
+  _colour = colour_nodes(mesh, host);
+  const auto last = std::max_element(_colour.begin(), _colour.end());
+  _num_colours =
+      static_cast<int>(host.max(last == _colour.end() ? 0.0 : 1.0 + *last));
+  std::size_t widest = 0;
+  for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
+    widest = std::max(widest, mesh.node_cells()[i].size());
+  _patch.reserve(widest);
+  _order.reserve(mesh.owned_nodes());
+  _start.resize(_num_colours + 1);
+  _flags.resize(mesh.num_nodes());
+  _shifted.resize(mesh.num_nodes());
+}
+
+bool Smoothing::flag(std::span<const double> x,
+                     std::span<const quality::Target> targets,
+                     std::span<std::uint8_t> flags, const Host& host)
+{
+  const auto node_cells = [this](std::int32_t i)
+  { return _mesh->node_cells()[i]; };
+  std::fill(_flags.begin(), _flags.end(), 0.0);
+  double any = 0;
+  for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
+    for (std::int32_t c : node_cells(i))
+      if (not(quality_of(*_mesh, x, _options.measure, targets, c)
+              >= _options.threshold))
+        _flags[i] = any = 1;
+  host.update_nodes(_flags, 1);
+  for (int ring = 0; ring < _options.rings; ++ring)
+  {
+    // 2 is new in this ring and does not spread until the next.
+    for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
+      for (std::int32_t j : _mesh->node_nodes()[i])
+        if (_flags[i] == 0 and _flags[j] == 1)
+          _flags[i] = 2;
+    for (double& f : _flags)
+      f = std::min(f, 1.0);
+    host.update_nodes(_flags, 1);
+  }
+  std::transform(_flags.begin(), _flags.end(), flags.begin(),
+                 [](double f) { return static_cast<std::uint8_t>(f); });
+  return host.max(any) > 0;
+}
+
+bool Smoothing::sizes_fit(std::span<const double> x,
+                          std::span<const std::uint8_t> flags,
+                          const Constraints& c) const
+{
+  const auto n = static_cast<std::size_t>(_mesh->num_nodes());
+  const bool slides =
+      std::find(c.kinds.begin(), c.kinds.end(), Kind::slide) != c.kinds.end();
+  const auto facets = static_cast<std::size_t>(_mesh->num_facets());
+  const auto cells = static_cast<std::size_t>(_mesh->num_cells());
+  return x.size() == 2 * n and flags.size() == n and c.kinds.size() == n
+         and (slides ? c.direction.size() == 2 * n
+                     : c.direction.empty() or c.direction.size() == 2 * n)
+         and (c.spacing.empty() or c.spacing.size() == facets)
+         and (c.targets.empty() or c.targets.size() == cells);
+}
+
+/// Flagged nodes of ours that may move, sorted by colour.
+void Smoothing::collect(std::span<const std::uint8_t> flags,
+                        const Constraints& c)
+{
+  const auto moves = [&](std::int32_t i)
+  { return flags[i] != 0 and c.kinds[i] != Kind::fixed; };
+  std::fill(_start.begin(), _start.end(), 0);
+  for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
+    if (moves(i))
+      ++_start[_colour[i] + 1];
+  for (int k = 0; k < _num_colours; ++k)
+    _start[k + 1] += _start[k];
+  _order.resize(_start[_num_colours]);
+  for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
+    if (moves(i))
+      _order[_start[_colour[i]]++] = i;
+  for (int k = _num_colours; k > 0; --k)
+    _start[k] = _start[k - 1];
+  _start[0] = 0;
+}
+
+/// Worst quality around our flagged nodes; global number of an inverted cell.
+double Smoothing::worst_around(std::span<const double> x, const Constraints& c,
+                               double& inverted) const
+{
+  double q = 1;
+  for (std::int32_t i : _order)
+    for (std::int32_t cell : _mesh->node_cells()[i])
+    {
+      const double one =
+          quality_of(*_mesh, x, _options.measure, c.targets, cell);
+      q = std::min(q, one);
+      if (not(one > 0))
+        inverted =
+            std::max(inverted, static_cast<double>(_mesh->cell_ids()[cell]));
+    }
+  return q;
+}
+
+/// The patch of a node into _patch.
+void Smoothing::gather(std::int32_t node, std::span<const double> x,
+                       const Constraints& c)
+{
+  _patch.clear();
+  for (std::int32_t cell : _mesh->node_cells()[node])
+  {
+    const Triple& n = _mesh->cell(cell);
+    quality::Target w = target_of(c.targets, cell);
+    int i = 0;
+    for (; n[i] != node; ++i)
+      w = w.next();
+    _patch.push_back({point(x, n[(i + 1) % 3]), point(x, n[(i + 2) % 3]), w});
+  }
+}
+
+/// Try a move and halves of it: `place(part)` is where the node would be.
+/// Returns the length of the step that was made.
+template <class Place>
+double Smoothing::accept(std::int32_t node, std::span<double> x, double floor,
+                         Place&& place)
+{
+  const Point old = point(x, node);
+  double size = 0;
+  for (const PatchCell& cell : _patch)
+    size = std::max(size, dot(cell.a - old, cell.a - old));
+  double part = _options.relaxation;
+  for (int k = 0; k <= max_halvings; ++k, part /= 2)
+  {
+    const Point to = place(part);
+    const double step = dot(to - old, to - old);
+    if (not(step > least_step * least_step * size))
+      return 0;
+    if (not(worst(_patch, to, _options.measure) >= floor))
+      continue;
+    x[2 * node] = to.x;
+    x[2 * node + 1] = to.y;
+    _shifted[node] = 1;
+    return std::sqrt(step);
+  }
+  return 0;
+}
+
+template <class S>
+double Smoothing::visit(std::int32_t node, std::span<double> x,
+                        const Constraints& c)
+{
+  gather(node, x, c);
+  Patch patch{point(x, node), _patch, {}};
+  if (c.kinds[node] == Kind::slide)
+  {
+    const Point t = point(c.direction, node);
+    patch.along = (1 / std::sqrt(dot(t, t))) * t;
+  }
+  const Point goal = S::propose(patch);
+  const Point old = patch.x;
+  return accept(node, x, worst(_patch, old, _options.measure),
+                [&](double part) { return old + part * (goal - old); });
+}
+
+template <class S>
+double Smoothing::visit_surface(std::int32_t node, std::span<double> x,
+                                const Constraints& c)
+{
+  const auto [in, out] = _mesh->boundary_facets(node);
+  if (in < 0)
+    return 0;
+  gather(node, x, c);
+  const Point old = point(x, node);
+  const Point before = point(x, _mesh->facet(in)[0]);
+  const Point after = point(x, _mesh->facet(out)[1]);
+  const Point chord = after - before;
+  const double length2 = dot(chord, chord);
+  const double now = dot(old - before, chord) / length2;
+  const double q = worst(_patch, old, _options.measure);
+  double tau = now;
+  double floor = q;
+  if (c.spacing.empty())
+  {
+    Patch patch{old, _patch, (1 / std::sqrt(length2)) * chord};
+    tau = dot(S::propose(patch) - before, chord) / length2;
+  }
+  else
+  {
+    tau = surface::part(before, old, after, c.spacing[in], c.spacing[out]);
+    floor = std::min(q, _options.threshold);
+  }
+  return accept(node, x, floor,
+                [&](double part)
+                {
+                  const double to = now + part * (tau - now);
+                  return _options.geometry == Geometry::plane
+                             ? surface::at<Geometry::plane>(before, old, after,
+                                                            to)
+                             : surface::at<Geometry::axisymmetric>(before, old,
+                                                                   after, to);
+                });
+}
+
+template <class S>
+void Smoothing::sweeps(std::span<double> x, const Constraints& c,
+                       const Host& host)
+{
+  for (int sweep = 0; sweep < _options.sweeps; ++sweep)
+  {
+    double longest = 0;
+    for (int colour = 0; colour < _num_colours; ++colour)
+    {
+      for (std::int32_t k = _start[colour]; k < _start[colour + 1]; ++k)
+      {
+        const std::int32_t i = _order[k];
+        longest = std::max(longest, c.kinds[i] == Kind::surface
+                                        ? visit_surface<S>(i, x, c)
+                                        : visit<S>(i, x, c));
+      }
+      host.update_nodes(x, 2);
+    }
+    longest = host.max(longest);
+    _report.largest_step = std::max(_report.largest_step, longest);
+    if (longest == 0)
+      return;
+  }
+}
+
+Outcome Smoothing::smooth(std::span<double> x,
+                          std::span<const std::uint8_t> flags,
+                          const Constraints& c, const Host& host)
+{
+  _report = {};
+  const bool fit = sizes_fit(x, flags, c);
+  const bool finite = std::all_of(x.begin(), x.end(),
+                                  [](double v) { return std::isfinite(v); });
+  _order.clear();
+  if (fit)
+    collect(flags, c);
+  double inverted = -1;
+  const double q = fit and finite ? worst_around(x, c, inverted) : 1;
+  double state[4] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, inverted, -q};
+  host.max(std::span(state, 4));
+  if (state[0] > 0)
+    return Outcome::wrong_size;
+  if (state[1] > 0)
+    return Outcome::not_finite;
+  _report.worst_before = _report.worst_after = -state[3];
+  _report.worst_cell = static_cast<std::int64_t>(state[2]);
+  if (_report.worst_cell >= 0)
+    return Outcome::inverted_start;
+
+  std::fill(_shifted.begin(), _shifted.end(), std::uint8_t(0));
+  std::visit([&]<class S>(const S&) { sweeps<S>(x, c, host); },
+             _options.smoother);
+  _report.moved = static_cast<std::int32_t>(
+      std::count(_shifted.begin(), _shifted.end(), 1));
+  _report.worst_after = -host.max(-worst_around(x, c, inverted));
+  return Outcome::ok;
+}
+
+std::vector<quality::Target> remap::shapes(const Mesh& mesh,
+                                           std::span<const double> x)
+{
+  std::vector<quality::Target> out;
+  out.reserve(mesh.num_cells());
+  for (std::int32_t c = 0; c < mesh.num_cells(); ++c)
+  {
+    const Triple& n = mesh.cell(c);
+    const Point a = point(x, n[0]);
+    out.push_back(quality::Target::of(point(x, n[1]) - a, point(x, n[2]) - a));
+  }
+  return out;
+}
+
+std::vector<double> remap::facet_lengths(const Mesh& mesh,
+                                         std::span<const double> x)
+{
+  std::vector<double> out;
+  out.reserve(mesh.num_facets());
+  for (std::int32_t f = 0; f < mesh.num_facets(); ++f)
+  {
+    const Point d = point(x, mesh.facet(f)[1]) - point(x, mesh.facet(f)[0]);
+    out.push_back(std::sqrt(dot(d, d)));
+  }
+  return out;
+}
+
+double remap::worst_quality(const Mesh& mesh, std::span<const double> x,
+                            Measure measure,
+                            std::span<const quality::Target> targets,
+                            const Host& host)
+{
+  double q = 1;
+  for (std::int32_t c = 0; c < mesh.owned_cells(); ++c)
+  {
+    const double one = quality_of(mesh, x, measure, targets, c);
+    q = not(one >= q) ? one : q;
+  }
+  return -host.max(-q);
+}
