@@ -40,6 +40,22 @@ struct J2
   /// than ten times its yield strain has nothing left to stabilise.
   static constexpr double max_flow = 10;
 
+  /// Radius of the yield surface, sqrt(2/3) of the yield stress [Pa].
+  double yield_radius(double plastic_strain) const
+  {
+    return std::sqrt(2.0 / 3.0) * (yield_stress + hardening * plastic_strain);
+  }
+
+  /// Radially back to the yield surface.
+  double admit(Eigen::Ref<Voigt> s, std::span<const double> q) const
+  {
+    const double size = norm(s), radius = yield_radius(q[0]);
+    if (not(size > radius))
+      return 0;
+    s *= radius / size;
+    return 1 - radius / size;
+  }
+
   Outcome update(const Increment& step, TangentKind kind, std::span<double> q,
                  Response& answer) const
   {
@@ -53,8 +69,7 @@ struct J2
     answer.s = step.s + D * step.de;
 
     const double trial = norm(answer.s);
-    const double radius
-        = std::sqrt(2.0 / 3.0) * (yield_stress + hardening * q[0]);
+    const double radius = yield_radius(q[0]);
     if (not(trial > radius))
       return Outcome::ok;
 

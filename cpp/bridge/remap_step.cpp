@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "remap_step.h"
+
+#include "remap/quality/quality.h"
+#include "remap/remap.h"
+#include "remap/smoothing/smooth.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mmale::bridge
+{
+namespace
+{
+using Nodes = std::array<int, 3>;
+
+::remap::Host make_host(const mesh::Domain& domain)
+{
+  ::remap::Host host;
+  int size = 1;
+  MPI_Comm_size(domain.comm, &size);
+  if (size == 1)
+    return host;
+  host.cell_halo = [&domain](std::span<double> v, int block)
+  { mesh::update_ghosts(domain.cell_map(), v, block); };
+  host.node_halo = [&domain](std::span<double> v, int block)
+  { mesh::update_ghosts(domain.nodes(), v, block); };
+  const auto reduce = [&domain](MPI_Op op)
+  {
+    return [&domain, op](std::span<double> v)
+    {
+      MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()),
+                    MPI_DOUBLE, op, domain.comm);
+    };
+  };
+  host.global_max = reduce(MPI_MAX);
+  host.global_sum = reduce(MPI_SUM);
+  return host;
+}
+
+::remap::Mesh make_mesh(const mesh::Domain& domain)
+{
+  std::vector<std::int32_t> cells, marked, markers;
+  for (const Nodes& c : domain.cells)
+    cells.insert(cells.end(), c.begin(), c.end());
+  for (const mesh::Facet& f : domain.facets)
+  {
+    marked.insert(marked.end(), {f.a, f.b});
+    markers.push_back(f.boundary);
+  }
+  return ::remap::Mesh(
+      {.cells = cells,
+       .x = domain.initial_x,
+       .owned_cells = static_cast<std::size_t>(domain.num_owned_cells),
+       .owned_nodes = static_cast<std::size_t>(domain.num_owned_nodes),
+       .cell_ids = domain.cell_id,
+       .node_ids = domain.node_id,
+       .marked = marked,
+       .markers = markers});
+}
+
+::remap::Geometry geometry(const scene::Scene& scene)
+{
+  return scene.symmetry == scene::Symmetry::axisymmetric
+             ? ::remap::Geometry::axisymmetric
+             : ::remap::Geometry::plane;
+}
+
+bool among(const std::vector<std::string>& list, const std::string& name)
+{
+  return std::ranges::find(list, name) != list.end();
+}
+
+::remap::Options transport_options(const mesh::Domain& domain,
+                                   const scene::Scene& scene, int widest)
+{
+  ::remap::Options o;
+  o.geometry = geometry(scene);
+  o.scheme = *::remap::find<::remap::Schemes>(scene.remap.transport);
+  o.nodal_scheme = o.scheme;
+  o.max_loss = scene.remap.max_loss;
+  for (const std::string& name : domain.boundary_names)
+    o.boundaries.push_back(among(scene.remap.open, name)
+                               ? ::remap::Boundary::open
+                           : among(scene.remap.surface, name)
+                               ? ::remap::Boundary::free_surface
+                               : ::remap::Boundary::closed);
+  o.cell_components = widest;
+  o.nodal_components = scene.motion ? 0 : 1;
+  return o;
+}
+
+::remap::SmoothingOptions smoothing_options(const scene::Scene& scene)
+{
+  ::remap::SmoothingOptions o;
+  o.geometry = geometry(scene);
+  o.smoother = *::remap::find<::remap::Smoothers>(scene.remap.smoother);
+  o.measure = scene.remap.target == "initial" ? ::remap::Measure::shape
+                                              : ::remap::Measure::radius_ratio;
+  o.threshold = scene.remap.quality_below;
+  o.sweeps = scene.remap.sweeps;
+  return o;
+}
+} // namespace
+
+std::vector<std::string> smoothers()
+{
+  return ::remap::names<::remap::Smoothers>();
+}
+
+std::vector<std::string> transports()
+{
+  return ::remap::names<::remap::Schemes>();
+}
+
+double worst_quality(const mesh::Domain& domain, const State& state)
+{
+  double worst = 1;
+  for (int c = 0; c < domain.num_owned_cells; ++c)
+  {
+    const auto [i, j, k] = domain.cells[c];
+    worst = std::min(worst, ::remap::quality::radius_ratio(
+                                ::remap::point(state.x, i),
+                                ::remap::point(state.x, j),
+                                ::remap::point(state.x, k)));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MIN, domain.comm);
+  return worst;
+}
+
+struct RemapStep::Impl
+{
+  Impl(const mesh::Domain& domain, const scene::Scene& scene,
+       const std::optional<material::AnyLaw>& law, output::Clock& clock);
+
+  bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
+  bool transport(State& state, std::span<const double> x, RemapLog& log);
+  void make_admissible(State& state, RemapLog& log);
+  void find_spacing();
+
+  const mesh::Domain& domain;
+  const scene::Scene& scene;
+  const std::optional<material::AnyLaw>& law;
+  output::Clock& clock;
+  ::remap::Host host;
+  ::remap::Mesh mesh;
+  int history;
+  ::remap::Remapper remapper;
+  std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
+  ::remap::Ledger ledger;
+
+  std::vector<::remap::Kind> kinds;
+  std::vector<double> direction, spacing;
+  std::vector<::remap::quality::Target> targets;
+  std::vector<std::uint8_t> flags;
+};
+
+namespace
+{
+int history_numbers(const std::optional<material::AnyLaw>& law)
+{
+  return law ? std::visit([](const auto& l)
+                          { return static_cast<int>(l.history.size()); },
+                          *law)
+             : 0;
+}
+} // namespace
+
+RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
+                      const std::optional<material::AnyLaw>& law,
+                      output::Clock& clock)
+    : domain(domain), scene(scene), law(law), clock(clock),
+      host(make_host(domain)), mesh(make_mesh(domain)),
+      history(history_numbers(law)),
+      remapper(mesh, transport_options(domain, scene,
+                                       std::max(law ? 4 : 1, history)))
+{
+  if (scene.remap.mode != scene::RemapMode::ale)
+    return;
+  smoothing.emplace(mesh, smoothing_options(scene), host);
+  flags.resize(mesh.num_nodes());
+  find_spacing();
+  if (scene.remap.target == "initial")
+    for (int c = 0; c < mesh.num_cells(); ++c)
+    {
+      const auto [i, j, k] = mesh.cell(c);
+      const auto a = ::remap::point(domain.initial_x, i);
+      targets.push_back(::remap::quality::Target::of(
+          ::remap::point(domain.initial_x, j) - a,
+          ::remap::point(domain.initial_x, k) - a));
+    }
+}
+
+/// Surface nodes return to the ratios of the first mesh.
+void RemapStep::Impl::find_spacing()
+{
+  spacing.resize(mesh.num_facets());
+  for (int f = 0; f < mesh.num_facets(); ++f)
+  {
+    const auto [a, b] = mesh.facet(f);
+    const auto d = ::remap::point(domain.initial_x, b)
+                   - ::remap::point(domain.initial_x, a);
+    spacing[f] = std::sqrt(::remap::dot(d, d));
+  }
+}
+
+RemapStep::RemapStep(const mesh::Domain& domain, const scene::Scene& scene,
+                     const std::optional<material::AnyLaw>& law,
+                     output::Clock& clock)
+    : _impl(std::make_unique<Impl>(domain, scene, law, clock))
+{
+}
+
+RemapStep::~RemapStep() = default;
+
+void RemapStep::set_stage(const scene::Stage&)
+{
+  // Nodes of one boundary slide along it, or stay on a free surface; where two
+  // boundaries meet a node stays with the material.
+  Impl& m = *_impl;
+  if (not m.smoothing)
+    return;
+  m.kinds.assign(m.mesh.num_nodes(), ::remap::Kind::free);
+  m.direction.assign(2 * m.mesh.num_nodes(), 0);
+  for (std::size_t b = 0; b < m.domain.boundary_names.size(); ++b)
+    for (int n : m.domain.boundary_nodes(static_cast<int>(b)))
+      m.kinds[n]
+          = m.kinds[n] != ::remap::Kind::free ? ::remap::Kind::fixed
+            : among(m.scene.remap.surface, m.domain.boundary_names[b])
+                ? ::remap::Kind::surface
+                : ::remap::Kind::slide;
+  for (const mesh::Facet& f : m.domain.facets)
+    for (int d = 0; d < 2; ++d)
+    {
+      const double along = m.domain.initial_x[2 * f.b + d]
+                           - m.domain.initial_x[2 * f.a + d];
+      m.direction[2 * f.a + d] += along;
+      m.direction[2 * f.b + d] += along;
+    }
+  m.host.update_nodes(m.direction, 2);
+}
+
+bool RemapStep::due(const State& state, int number)
+{
+  Impl& m = *_impl;
+  const auto& o = m.scene.remap;
+  if (o.every > 0 and number % o.every == 0)
+  {
+    std::ranges::fill(m.flags, std::uint8_t{1});
+    return true;
+  }
+  if (o.quality_below <= 0)
+    return false;
+  const auto scope = m.clock.scope("2 smooth");
+  if (m.smoothing)
+    return m.smoothing->flag(state.x, m.targets, m.flags, m.host);
+  return worst_quality(m.domain, state) < o.quality_below;
+}
+
+bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
+                             RemapLog& log)
+{
+  const auto scope = clock.scope("2 smooth");
+  if (not smoothing)
+  {
+    x = domain.initial_x;
+    return true;
+  }
+  x = state.x;
+  const auto outcome = smoothing->smooth(x, flags,
+                                         {.kinds = kinds,
+                                          .direction = direction,
+                                          .spacing = spacing,
+                                          .targets = targets},
+                                         host);
+  if (outcome != ::remap::Outcome::ok)
+    log.trouble = ::remap::describe(outcome);
+  return outcome == ::remap::Outcome::ok;
+}
+
+bool RemapStep::Impl::transport(State& state, std::span<const double> x,
+                                RemapLog& log)
+{
+  const auto scope = clock.scope("3 transport");
+  State copy = state; // a remap that stops half way is taken back
+  std::vector<::remap::Field> cells, nodes;
+  std::vector<std::vector<double>> inflow;
+  inflow.reserve(state.tracer.size());
+  if (law)
+  {
+    cells.push_back({.values = state.s, .components = 4, .group = 4});
+    cells.push_back({.values = state.P});
+    cells.push_back({.values = state.density});
+    if (history > 0)
+      cells.push_back({.values = state.history, .components = history});
+    nodes.push_back({.values = state.p});
+  }
+  for (auto& [name, values] : state.tracer)
+  {
+    inflow.emplace_back(domain.boundary_names.size(),
+                        scene.tracer.at(name).outside);
+    cells.push_back({.values = values, .inflow = inflow.back()});
+  }
+  const ::remap::Ledger before = ledger;
+  const auto outcome
+      = remapper.remap(state.x, x, cells, nodes, host, ledger);
+  log.cycles = remapper.report().cycles;
+  if (outcome != ::remap::Outcome::ok)
+  {
+    log.trouble = ::remap::describe(outcome);
+    state = std::move(copy);
+    ledger = before;
+    return false;
+  }
+  std::ranges::copy(x, state.x.begin());
+  return true;
+}
+
+void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
+{
+  if (not law)
+    return;
+  const auto scope = clock.scope("4 admissible");
+  double largest = 0, clipped = 0;
+  std::visit(
+      [&](const auto& l)
+      {
+        for (int c = 0; c < domain.num_cells(); ++c)
+        {
+          const double part = l.admit(
+              Eigen::Map<material::Voigt>(state.s.data() + 4 * c),
+              std::span(state.history)
+                  .subspan(static_cast<std::size_t>(history) * c, history));
+          if (c < domain.num_owned_cells)
+            clipped += part > 0;
+          largest = std::max(largest, part);
+        }
+      },
+      *law);
+  host.max(std::span(&largest, 1));
+  host.sum(std::span(&clipped, 1));
+  log.clipped = static_cast<std::int64_t>(clipped);
+  log.clipped_largest = largest;
+}
+
+void RemapStep::run(State& state, RemapLog& log)
+{
+  std::vector<double> x;
+  if (not _impl->smooth(state, x, log)
+      or not _impl->transport(state, x, log))
+    return;
+  _impl->make_admissible(state, log);
+  log.quality = worst_quality(_impl->domain, state);
+  log.done = true;
+}
+
+Exchange RemapStep::exchange() const
+{
+  const auto& ledger = _impl->ledger;
+  Exchange out{.volume = ::remap::net(ledger.cell_volume)};
+  std::size_t k = 0; // components in the order of `transport`
+  if (_impl->law)
+  {
+    k = 5;
+    out.mass = k < ledger.cells.size() ? ::remap::net(ledger.cells[k]) : 0;
+    k += 1 + _impl->history;
+  }
+  for (const auto& [name, tracer] : _impl->scene.tracer)
+  {
+    out.tracer[name]
+        = k < ledger.cells.size() ? ::remap::net(ledger.cells[k]) : 0;
+    ++k;
+  }
+  return out;
+}
+} // namespace mmale::bridge

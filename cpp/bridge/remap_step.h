@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "material/library.h"
+#include "mesh/domain.h"
+#include "output/clock.h"
+#include "scene/scene.h"
+#include "state.h"
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Steps 2 to 4 of METHOD.md: the solver's state through the remap library.
+///
+/// The only place that knows both: halos, constraints on nodes, which array
+/// travels how. Conserved: the integral of every field, but for what passes
+/// the boundary, which the ledger holds.
+namespace mmale::bridge
+{
+/// What a remap did.
+struct RemapLog
+{
+  bool done = false;
+  std::string trouble;         ///< why it was left out; the mesh then stays
+  int cycles = 0;              ///< sub-cycles of the transport
+  double quality = 1;          ///< worst cell after smoothing
+  std::int64_t clipped = 0;    ///< cells brought back to the yield surface
+  double clipped_largest = 0;  ///< by this part of their stress
+};
+
+/// What passed the boundary since the start, inward positive.
+struct Exchange
+{
+  double volume = 0;                    ///< [m3/m] or [m3/rad]
+  double mass = 0;                      ///< [kg/m] or [kg/rad]
+  std::map<std::string, double> tracer; ///< integral of each
+};
+
+/// Smoother and transport schemes by name, as the scene may choose them.
+std::vector<std::string> smoothers();
+std::vector<std::string> transports();
+
+/// Worst radius ratio of all cells. Collective.
+double worst_quality(const mesh::Domain& domain, const State& state);
+
+class RemapStep
+{
+public:
+  /// Collective.
+  RemapStep(const mesh::Domain& domain, const scene::Scene& scene,
+            const std::optional<material::AnyLaw>& law, output::Clock& clock);
+  ~RemapStep();
+
+  /// The stage decides which boundaries are walls. Collective.
+  void set_stage(const scene::Stage& stage);
+
+  /// Is it time? Collective.
+  /// @param[in] number of the step in the run, from 1
+  bool due(const State& state, int number);
+
+  /// Move the mesh and carry the state. Collective.
+  void run(State& state, RemapLog& log);
+
+  Exchange exchange() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> _impl;
+};
+} // namespace mmale::bridge

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace mmale
+{
+namespace
+{
+double sum(MPI_Comm comm, double x)
+{
+  MPI_Allreduce(MPI_IN_PLACE, &x, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return x;
+}
+
+/// Boundaries that some stage holds or loads.
+std::vector<int> watched(const Simulation& sim)
+{
+  std::vector<int> out;
+  for (std::size_t b = 0; b < sim.domain.boundary_names.size(); ++b)
+    for (const auto& stage : sim.scene.stage)
+      if (stage.boundary.contains(sim.domain.boundary_names[b])
+          and std::ranges::find(out, static_cast<int>(b)) == out.end())
+        out.push_back(static_cast<int>(b));
+  return out;
+}
+} // namespace
+
+Monitor::Monitor(const Simulation& sim)
+    : _sim(sim), _probe(sim.domain.mesh), _names{"time", "step"},
+      _watched(watched(sim)),
+      _moved(sim.domain.boundary_names.size(), {0, 0})
+{
+  for (const auto& [name, curve] : sim.scene.output.curve)
+  {
+    Column c{.curve = curve};
+    if (curve.point)
+    {
+      c.point = static_cast<int>(_points.size());
+      _points.push_back(*curve.point);
+      _displacement.push_back({0, 0});
+    }
+    if (not curve.boundary.empty())
+      c.boundary = sim.domain.boundary(curve.boundary);
+    c.divide_by = curve.divide_by * breadth(curve);
+    _names.push_back(name);
+    _columns.push_back(c);
+  }
+  for (int b : _watched)
+    for (const char* what : {".reaction_x", ".reaction_y", ".displacement_x",
+                             ".displacement_y"})
+      _names.push_back(sim.domain.boundary_names[b] + what);
+  if (sim.problem)
+    for (const char* name : {"iterations", "pressure_gap", "volume_gap"})
+      _names.emplace_back(name);
+  if (sim.remap)
+    for (const char* name : {"quality", "cycles", "clipped"})
+      _names.emplace_back(name);
+  _spots = _probe.locate(_points);
+  _reactions.assign(sim.domain.boundary_names.size(), {0, 0});
+  _start = ledger();
+  _volume = volume();
+}
+
+/// The extent of the curve's boundary, as it says; 1 if it says nothing.
+double Monitor::breadth(const scene::Curve& curve) const
+{
+  if (curve.breadth.empty())
+    return 1;
+  const auto& d = _sim.domain;
+  const int b = d.boundary(curve.boundary);
+  const bool upright = d.boundary_sides[b] == "left" or d.boundary_sides[b] == "right";
+  const auto at = [&](int n) { return d.initial_x[2 * n + upright]; };
+  double ends[2] = {std::numeric_limits<double>::max(),
+                    std::numeric_limits<double>::max()}; // low, minus high
+  for (int n : d.boundary_nodes(b))
+  {
+    ends[0] = std::min(ends[0], at(n));
+    ends[1] = std::min(ends[1], -at(n));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MIN, d.comm);
+  // the first edges of the same side beyond the two ends
+  double beyond[2] = {std::numeric_limits<double>::max(),
+                      std::numeric_limits<double>::max()};
+  for (const mesh::Facet& f : d.facets)
+    if (f.boundary != b and d.boundary_sides[f.boundary] == d.boundary_sides[b])
+    {
+      const double low = std::min(at(f.a), at(f.b)),
+                   high = std::max(at(f.a), at(f.b)), h = high - low;
+      if (std::abs(high - ends[0]) < 1e-9 * h)
+        beyond[0] = h;
+      if (std::abs(low + ends[1]) < 1e-9 * h)
+        beyond[1] = h;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, beyond, 2, MPI_DOUBLE, MPI_MIN, d.comm);
+  double out = -ends[1] - ends[0];
+  for (double h : beyond)
+    if (curve.breadth == "effective" and h < out)
+      out += 0.5 * h;
+  return out;
+}
+
+double Monitor::integral(std::span<const double> density) const
+{
+  double out = 0;
+  const bool axisymmetric
+      = _sim.scene.symmetry == scene::Symmetry::axisymmetric;
+  for (int c = 0; c < _sim.domain.num_owned_cells; ++c)
+    out += (density.empty() ? 1 : density[c])
+           * lagrangian::cell_volume(_sim.domain, _sim.state.x, c,
+                                     axisymmetric);
+  return (axisymmetric ? 2 * std::numbers::pi : 1)
+         * sum(_sim.domain.comm, out);
+}
+
+double Monitor::volume() const { return integral({}); }
+
+double Monitor::tracer(const scene::Curve& c) const
+{
+  const auto& values = _sim.state.tracer.at(c.tracer);
+  if (c.quantity == "tracer_total")
+    return integral(values);
+  const auto owned = std::span(values).first(_sim.domain.num_owned_cells);
+  const double sign = c.quantity == "tracer_max" ? 1 : -1;
+  double out = -std::numeric_limits<double>::infinity();
+  for (double v : owned)
+    out = std::max(out, sign * v);
+  MPI_Allreduce(MPI_IN_PLACE, &out, 1, MPI_DOUBLE, MPI_MAX, _sim.domain.comm);
+  return sign * out;
+}
+
+double Monitor::boundary_mean(int boundary, std::span<const double> nodal,
+                              int size, int component) const
+{
+  double total[2] = {0, 0};
+  for (int n : _sim.domain.boundary_nodes(boundary))
+    if (n < _sim.domain.num_owned_nodes)
+    {
+      total[0] += nodal[size * n + component];
+      total[1] += 1;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, _sim.domain.comm);
+  return total[0] / total[1];
+}
+
+void Monitor::after_step(double dt)
+{
+  const auto& state = _sim.state;
+  for (int b : _watched)
+    for (int d = 0; d < 2; ++d)
+      _moved[b][d] += dt * boundary_mean(b, state.v, 2, d);
+  if (not _points.empty())
+  {
+    const auto v = _probe.sample(
+        _spots, {.name = "velocity",
+                 .location = output::Location::nodal,
+                 .components = 2,
+                 .values = state.v});
+    for (std::size_t i = 0; i < _points.size(); ++i)
+      for (int d = 0; d < 2; ++d)
+      {
+        _points[i][d] += dt * v[2 * i + d];
+        _displacement[i][d] += dt * v[2 * i + d];
+      }
+  }
+  if (_sim.problem)
+  {
+    double end = 0;
+    for (int c = 0; c < _sim.domain.num_owned_cells; ++c)
+      end += _sim.problem->element().volume(c);
+    const double turn = _sim.scene.symmetry == scene::Symmetry::axisymmetric
+                            ? 2 * std::numbers::pi
+                            : 1;
+    _lagrangian_volume += turn * sum(_sim.domain.comm, end) - _volume;
+    _volume = volume();
+    _reactions = _sim.problem->reactions();
+  }
+  if (not _points.empty())
+  {
+    // the probe reads the geometry of the DOLFINx mesh
+    const_cast<mesh::Domain&>(_sim.domain).put_geometry(state.x);
+    _spots = _probe.locate(_points);
+  }
+}
+
+double Monitor::value(const Column& c) const
+{
+  const auto& q = c.curve.quantity;
+  if (q.starts_with("tracer"))
+    return tracer(c.curve);
+  const int d = q.ends_with("_y") ? 1 : 0;
+  if (q.starts_with("reaction"))
+    return _reactions[c.boundary][d];
+  if (q.starts_with("displacement"))
+    return c.point >= 0 ? _displacement[c.point][d] : _moved[c.boundary][d];
+  const auto& p = _sim.state.p;
+  if (c.boundary >= 0)
+    return boundary_mean(c.boundary, p, 1, 0);
+  return _probe.sample(std::span(_spots).subspan(c.point, 1),
+                       {.name = q,
+                        .location = output::Location::nodal,
+                        .components = 1,
+                        .values = p})[0];
+}
+
+std::vector<double> Monitor::row(double step, const StepLog& log)
+{
+  std::vector<double> out{_sim.state.time, step};
+  for (const Column& c : _columns)
+    out.push_back(value(c) / c.divide_by);
+  for (int b : _watched)
+    for (const auto& pair : {_reactions[b], _moved[b]})
+      out.insert(out.end(), pair.begin(), pair.end());
+  if (_sim.problem)
+  {
+    out.push_back(log.newton.iterations);
+    const auto gap = _sim.problem->mismatch(_sim.state);
+    out.insert(out.end(), gap.begin(), gap.end());
+  }
+  if (_sim.remap)
+    out.insert(out.end(),
+               {bridge::worst_quality(_sim.domain, _sim.state),
+                static_cast<double>(log.remap.cycles),
+                static_cast<double>(log.remap.clipped)});
+  return out;
+}
+
+output::Ledger Monitor::ledger() const
+{
+  const bool axisymmetric
+      = _sim.scene.symmetry == scene::Symmetry::axisymmetric;
+  const double turn = axisymmetric ? 2 * std::numbers::pi : 1;
+  const std::string per = axisymmetric ? "" : "/m";
+  bridge::Exchange passed;
+  if (_sim.remap)
+    passed = _sim.remap->exchange();
+  output::Ledger out;
+  out.push_back({.name = "volume",
+                 .unit = "m3" + per,
+                 .end = volume(),
+                 .through_surface = turn * passed.volume,
+                 .booked = _lagrangian_volume});
+  if (_sim.law)
+    out.push_back({.name = "mass",
+                   .unit = "kg" + per,
+                   .end = integral(_sim.state.density),
+                   .through_surface = turn * passed.mass});
+  for (const auto& [name, values] : _sim.state.tracer)
+    out.push_back({.name = name,
+                   .unit = "m3" + per,
+                   .end = integral(values),
+                   .through_surface = turn * passed.tracer[name]});
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i].start = _start.empty() ? out[i].end : _start[i].start;
+  return out;
+}
+
+std::vector<output::NamedField> Monitor::fields()
+{
+  using output::Location;
+  const auto& state = _sim.state;
+  std::vector<output::NamedField> out{
+      {"velocity", Location::nodal, 2, state.v, "m/s"}};
+  for (const auto& [name, values] : state.tracer)
+    out.push_back({name, Location::cell, 1, values, ""});
+  if (not _sim.law)
+    return out;
+  const std::size_t cells = state.P.size();
+  auto& [mises, stress, history] = _derived;
+  mises.resize(cells);
+  stress = state.s;
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    mises[c] = std::sqrt(1.5)
+               * material::norm(material::Voigt(state.s.data() + 4 * c));
+    for (int i = 0; i < 3; ++i)
+      stress[4 * c + i] -= state.P[c];
+  }
+  out.push_back({"pressure", Location::nodal, 1, state.p, "Pa"});
+  out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
+  out.push_back({"stress", Location::cell, 4, stress, "Pa"});
+  out.push_back({"density", Location::cell, 1, state.density, "kg/m3"});
+  std::visit(
+      [&](const auto& law)
+      {
+        // history numbers come apart, one field each
+        const std::size_t h = law.history.size();
+        history.resize(h * cells);
+        for (std::size_t k = 0; k < h; ++k)
+        {
+          for (std::size_t c = 0; c < cells; ++c)
+            history[k * cells + c] = state.history[h * c + k];
+          out.push_back({std::string(law.history[k]), Location::cell, 1,
+                         std::span(history).subspan(k * cells, cells), ""});
+        }
+      },
+      *_sim.law);
+  return out;
+}
+} // namespace mmale

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "output/fields.h"
+#include "output/ledger.h"
+#include "output/probe.h"
+#include "simulation.h"
+#include <string>
+#include <vector>
+
+namespace mmale
+{
+/// What a run is watched by: the columns of curves.csv, the conservation
+/// ledger, the fields. All calls are collective.
+class Monitor
+{
+public:
+  explicit Monitor(const Simulation& sim);
+
+  /// Names of the columns.
+  const std::vector<std::string>& names() const { return _names; }
+
+  /// Add up the displacements of an accepted step.
+  void after_step(double dt);
+
+  /// A row of values, the same on all ranks.
+  std::vector<double> row(double step, const StepLog& log);
+
+  /// Conserved quantities from the start until now.
+  output::Ledger ledger() const;
+
+  /// Fields as they stand; spans live until the next call.
+  std::vector<output::NamedField> fields();
+
+private:
+  struct Column
+  {
+    scene::Curve curve;
+    int boundary = -1; ///< index, or
+    int point = -1;    ///< index into _points
+    double divide_by = 1;
+  };
+  double value(const Column& c) const;
+  double tracer(const scene::Curve& c) const;
+  double boundary_mean(int boundary, std::span<const double> nodal, int size,
+                       int component) const;
+  double breadth(const scene::Curve& c) const;
+  double volume() const;
+  double integral(std::span<const double> density) const;
+
+  const Simulation& _sim;
+  output::Probe _probe;
+  std::vector<std::string> _names;
+  std::vector<Column> _columns;
+  std::vector<int> _watched; ///< boundaries with conditions in some stage
+  std::vector<scene::Point> _points, _displacement;
+  std::vector<output::Spot> _spots;
+  std::vector<std::array<double, 2>> _moved; ///< of each boundary, mean
+  std::vector<std::array<double, 2>> _reactions;
+  output::Ledger _start;
+  double _volume = 0;            ///< at the end of the last step
+  double _lagrangian_volume = 0; ///< change by the material's own motion
+  std::vector<double> _derived[3]; ///< von Mises, stress, quality
+};
+} // namespace mmale

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "scene/scene.h"
+#include <vector>
+
+namespace mmale
+{
+/// Size of the steps of a stage: a failed one is halved, easy ones grow, none
+/// passes a time at which something is written.
+class StepControl
+{
+public:
+  /// @param[in] marks times to be met exactly, from the start of the stage [s]
+  StepControl(const scene::Stage& stage, std::vector<double> marks);
+
+  double time() const { return _time; }
+  bool finished() const { return _time >= _end; }
+
+  /// End of the step to try [s].
+  double next() const;
+
+  /// The step was taken with so many iterations; an easy one lets the next
+  /// grow by half.
+  void accepted(int iterations);
+
+  /// The step failed.
+  /// @return false when the floor is reached
+  [[nodiscard]] bool failed();
+
+  double step() const { return _step; }
+  double floor() const { return _floor; }
+
+private:
+  /// Iterations up to which a step counts as easy. More: larger steps, more
+  /// failures.
+  static constexpr int easy = 5;
+
+  double _time = 0, _end, _step, _floor, _ceiling;
+  std::vector<double> _marks;
+};
+} // namespace mmale
