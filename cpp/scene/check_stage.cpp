@@ -92,6 +92,11 @@ void check_motion(const Scene& scene, Complaints& out)
 {
   if (scene.motion->revolutions == 0)
     out.push_back({"motion.revolutions", "must not be 0", {}});
+  if (scene.symmetry == Symmetry::axisymmetric)
+    out.push_back({"symmetry",
+                   "must be plane_strain: a rotation in the plane would leave "
+                   "the axis",
+                   {}});
   if (scene.stage.size() > 1)
     out.push_back({"motion", "turns over one stage; give exactly one", {}});
   for (const auto& [name, material] : scene.material)

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "environment.h"
+#include "libraries.h"
+#include "run.h"
+#include "scene/describe.h"
+#include "scene/reader.h"
+#include "scene/sweep.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace fs = std::filesystem;
+using namespace mmale;
+
+namespace
+{
+/// How the program ends; `--help` says the same.
+enum Exit
+{
+  good = 0,
+  mistake = 1,
+  failure = 2,
+  stopped = 3,
+  checks_fail = 4
+};
+
+constexpr const char* exit_help =
+    "Exit code: 0 all runs completed; 1 mistake in scene or command line;\n"
+    "2 failure of the program; 3 a run stopped early, its last state is "
+    "saved;\n4 completed, but a check of reference.toml does not hold.\n"
+    "Words after -- go to PETSc.";
+
+/// The words of the command line.
+struct Arguments
+{
+  fs::path scene;
+  std::vector<std::string> overrides;
+  fs::path results;
+  bool quiet = false;
+  bool keys = false;
+};
+
+/// A run to be made: what differs between members, and its scene.
+struct Job
+{
+  scene::Member member;
+  scene::Scene scene;
+};
+
+/// Text that only rank 0 knows, on all ranks.
+std::string broadcast(MPI_Comm comm, std::string text)
+{
+  auto size = static_cast<unsigned long>(text.size());
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm);
+  text.resize(size);
+  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
+  return text;
+}
+
+/// Print complaints, each once: members of a sweep share most of theirs.
+void print(const std::vector<scene::Complaint>& complaints)
+{
+  std::vector<std::string> lines;
+  for (const scene::Complaint& complaint : complaints)
+    if (const std::string line = to_string(complaint);
+        std::ranges::find(lines, line) == lines.end())
+      lines.push_back(line);
+  for (const std::string& line : lines)
+    std::cerr << line << "\n";
+  std::cerr << "mmale: " << lines.size()
+            << (lines.size() == 1 ? " complaint" : " complaints")
+            << ", nothing was run\n";
+}
+
+/// Read the scene of every member of the sweep; all complaints of all.
+std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
+                           std::vector<scene::Complaint>& complaints)
+{
+  complaints = file.complaints;
+  const scene::Sweep sweep = scene::expand(given.overrides);
+  std::ranges::copy(sweep.complaints, std::back_inserter(complaints));
+  if (not complaints.empty())
+    return {};
+  std::vector<Job> jobs;
+  for (const scene::Member& member : sweep.members)
+  {
+    scene::Reading reading = scene::read(file.text, given.scene.string(),
+                                         member.overrides, libraries());
+    std::ranges::copy(reading.complaints, std::back_inserter(complaints));
+    jobs.push_back({member, std::move(reading.scene)});
+  }
+  return jobs;
+}
+
+/// results/<name>: the folder of a scene.toml, else the file's own stem.
+fs::path results_folder(const Arguments& given)
+{
+  if (not given.results.empty())
+    return given.results;
+  const fs::path folder = fs::absolute(given.scene).parent_path().filename();
+  const bool named_by_folder =
+      given.scene.filename() == "scene.toml" and not folder.empty();
+  return "results" / (named_by_folder ? folder : given.scene.stem());
+}
+
+/// What a throw of ours comes to: told and, with company, the end of all
+/// processes, for the others may wait in a collective.
+Exit fail(MPI_Comm comm, const std::exception& error)
+{
+  std::cerr << "mmale: " << error.what() << std::endl;
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  if (size > 1)
+    MPI_Abort(comm, failure);
+  return failure;
+}
+
+/// One run, and its row of the sweep's table.
+Exit run_one(MPI_Comm comm, const Job& job, const RunOptions& options,
+             scene::Row& row)
+{
+  try
+  {
+    const Result result = run(comm, job.scene, options);
+    row.outcome = result.outcome;
+    row.last = result.last;
+    return not result.completed ? stopped
+           : result.checks_hold ? good
+                                : checks_fail;
+  }
+  catch (const std::exception& error)
+  {
+    row.outcome = std::string("failed: ") + error.what();
+    return fail(comm, error);
+  }
+}
+
+/// All runs in turn; the table grows with each, so an end midway loses none.
+Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
+             const Arguments& given, const fs::path& results,
+             const std::string& reference)
+{
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::set<Exit> ends;
+  std::vector<scene::Row> rows;
+  for (const Job& job : jobs)
+  {
+    if (rank == 0 and jobs.size() > 1 and not given.quiet)
+      std::cout << "[" << rows.size() + 1 << "/" << jobs.size() << "] "
+                << job.member.folder << std::endl;
+    scene::Row row = {job.member.swept, "", {}};
+    const fs::path folder = job.member.folder;
+    ends.insert(run_one(comm, job,
+                        {folder.empty() ? results : results / folder, reference,
+                         scene::describe(job.scene), given.quiet},
+                        row));
+    rows.push_back(std::move(row));
+    if (rank == 0 and jobs.size() > 1
+        and not(std::ofstream(results / "sweep.csv")
+                << scene::to_csv(rows) << std::flush))
+      throw std::runtime_error("cannot write "
+                               + (results / "sweep.csv").string());
+  }
+  for (Exit end : {failure, stopped, checks_fail})
+    if (ends.contains(end))
+      return end;
+  return good;
+}
+
+/// `mmale run`: rank 0 reads, all ranks agree before anything starts.
+Exit run_verb(MPI_Comm comm, const Arguments& given)
+{
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  scene::FileText file;
+  if (rank == 0)
+    file = scene::load(given.scene);
+  // The same text gives the same complaints on every rank.
+  file.text = broadcast(comm, file.text);
+  const std::string trouble =
+      broadcast(comm, file.complaints.empty() ? "" : file.complaints[0].what);
+  if (rank > 0 and not trouble.empty())
+    file.complaints.push_back({"", trouble, {given.scene.string(), 0}});
+
+  std::vector<scene::Complaint> complaints;
+  const std::vector<Job> jobs = read_jobs(file, given, complaints);
+  const fs::path results = results_folder(given);
+  std::string unwritable, reference;
+  if (rank == 0 and complaints.empty())
+  {
+    std::error_code error;
+    fs::create_directories(results, error);
+    if (error)
+      unwritable = "cannot be made: " + error.message();
+    const fs::path beside = given.scene.parent_path() / "reference.toml";
+    if (given.overrides.empty() and fs::exists(beside, error))
+      reference = beside.string();
+  }
+  unwritable = broadcast(comm, unwritable);
+  if (not unwritable.empty())
+    complaints.push_back({"", unwritable, {results.string(), 0}});
+  if (not complaints.empty())
+  {
+    if (rank == 0)
+      print(complaints);
+    return mistake;
+  }
+  return run_all(comm, jobs, given, results, broadcast(comm, reference));
+}
+
+/// `mmale check`: the scene as understood, or the complaints.
+Exit check_verb(const Arguments& given)
+{
+  if (given.keys)
+  {
+    std::cout << to_string(scene::key_reference(libraries()));
+    if (given.scene.empty())
+      return good;
+  }
+  std::vector<scene::Complaint> complaints;
+  const std::vector<Job> jobs =
+      read_jobs(scene::load(given.scene), given, complaints);
+  if (not complaints.empty())
+  {
+    print(complaints);
+    return mistake;
+  }
+  for (const Job& job : jobs)
+  {
+    if (jobs.size() > 1)
+      std::cout << "# " << job.member.folder << "\n";
+    std::cout << scene::describe(job.scene) << "\n";
+  }
+  return good;
+}
+
+/// The options of both verbs.
+void define(CLI::App& app, Arguments& given)
+{
+  const auto overrides = [&](CLI::App* verb)
+  {
+    verb->add_option("changes", given.overrides,
+                     "keys of the scene, mesh.size=0.025; several values, "
+                     "mesh.size=0.1,0.05, make a sweep")
+        ->type_name("key=value");
+  };
+  app.name("mmale");
+  app.set_version_flag("--version", "mmale " MMALE_VERSION);
+  app.require_subcommand(1);
+  app.footer(exit_help);
+  CLI::App* run = app.add_subcommand("run", "Run a scene");
+  run->add_option("scene", given.scene, "the scene")
+      ->type_name("SCENE.toml")
+      ->required();
+  overrides(run);
+  run->add_option("--results", given.results,
+                  "where to write; default results/<name of the scene>")
+      ->type_name("DIR");
+  run->add_flag("--quiet", given.quiet, "No progress on the screen");
+  run->footer(exit_help);
+  CLI::App* check = app.add_subcommand(
+      "check", "Say how a scene is understood, or all complaints about it");
+  CLI::Option* keys =
+      check->add_flag("--keys", given.keys, "List every key of a scene");
+  CLI::Option* scene = check->add_option("scene", given.scene, "the scene")
+                           ->type_name("SCENE.toml");
+  overrides(check);
+  check->final_callback(
+      [keys, scene]
+      {
+        if (not*keys and not*scene)
+          throw CLI::RequiredError("SCENE.toml");
+      });
+}
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  // Ours are the words before --, PETSc's those behind.
+  const auto dashes = std::find(argv, argv + argc, std::string_view("--"));
+  const int ours = static_cast<int>(dashes - argv);
+  const std::vector<std::string> petsc(std::min(dashes + 1, argv + argc),
+                                       argv + argc);
+  try
+  {
+    // Only runs need MPI; with it a usage mistake too is told once.
+    std::optional<Environment> environment;
+    int rank = 0;
+    if (argc > 1 and std::string_view(argv[1]) == "run")
+    {
+      environment.emplace(argv[0], petsc);
+      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    }
+    Arguments given;
+    CLI::App app("MMALE: multi-material arbitrary Lagrangian-Eulerian solver");
+    define(app, given);
+    try
+    {
+      app.parse(ours, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+      if (rank > 0)
+        return error.get_exit_code() == 0 ? good : mistake;
+      return app.exit(error) == 0 ? good : mistake;
+    }
+    if (not environment)
+      return check_verb(given);
+    try
+    {
+      return run_verb(MPI_COMM_WORLD, given);
+    }
+    catch (const std::exception& error)
+    {
+      return fail(MPI_COMM_WORLD, error);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "mmale: " << error.what() << std::endl;
+    return failure;
+  }
+}
