@@ -15,6 +15,9 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parents[3] / "cpp" / "output"))
 import draw  # noqa: E402
+import draw_charts  # noqa: E402
+import draw_fields  # noqa: E402
+import read_run  # noqa: E402
 
 
 def block(n, t):
@@ -207,8 +210,8 @@ class Draw(unittest.TestCase):
     def test_pieces_are_joined_without_their_ghosts(self):
         write_output(self.folder, 0, 0.1, 1)
         write_output(self.folder, 0, 0.1, 2)
-        one = draw.read_grid(self.folder / "fields000000.vtu", 0.1)
-        two = draw.read_grid(self.folder / "fields000000.pvtu", 0.1)
+        one = read_run.read_grid(self.folder / "fields000000.vtu", 0.1)
+        two = read_run.read_grid(self.folder / "fields000000.pvtu", 0.1)
         self.assertEqual(len(one.points), 11 * 16)
         self.assertEqual(len(one.cells), 2 * 10 * 15)
         np.testing.assert_array_equal(one.points, two.points)
@@ -222,37 +225,39 @@ class Draw(unittest.TestCase):
         for a, b in zip(sorted_cells(one), sorted_cells(two)):
             np.testing.assert_array_equal(a, b)
         # 4 sides: 10 + 10 + 15 + 15 edges; a joint would add to them.
-        self.assertEqual(len(draw.border(two.cells)), 50)
+        self.assertEqual(len(draw_fields.border(two.cells)), 50)
 
     def test_the_nearest_output_is_shown(self):
         pvd = write_run(self.folder) / "fields.pvd"
         for asked, got in ((None, 0.25), (0.0, 0.0), (0.12, 0.1), (9.0, 0.25)):
-            self.assertEqual(draw.nearest_output(pvd, asked)[0], got)
+            self.assertEqual(read_run.nearest_output(pvd, asked)[0], got)
 
     def test_arrows_lie_inside_and_carry_the_field(self):
         write_output(self.folder, 0, 0.0, 1)
-        grid = draw.read_grid(self.folder / "fields000000.vtu", 0.0)
+        grid = read_run.read_grid(self.folder / "fields000000.vtu", 0.0)
         linear = grid.points @ np.array([[1.0, 3.0], [2.0, -1.0]])
-        at, v = draw.sample(grid, linear, 0.1)
+        at, v = draw_fields.sample(grid, linear, 0.1)
         self.assertEqual(len(at), 10 * 15)  # 9 or 10 by 15 of side 0.1
-        np.testing.assert_allclose(v, at @ np.array([[1.0, 3.0], [2.0, -1.0]]), atol=1e-14)
+        np.testing.assert_allclose(
+            v, at @ np.array([[1.0, 3.0], [2.0, -1.0]]), atol=1e-14
+        )
 
     def test_a_tensor_is_shown_by_its_von_mises_stress(self):
         write_output(self.folder, 0, 0.0, 1)
-        grid = draw.read_grid(self.folder / "fields000000.vtu", 0.0)
-        values, nodal, label = draw.scalar(grid, "stress")
+        grid = read_run.read_grid(self.folder / "fields000000.vtu", 0.0)
+        values, nodal, label = draw_fields.scalar(grid, "stress")
         np.testing.assert_allclose(values, 2 * np.sqrt(3))
         self.assertFalse(nodal)
         self.assertEqual(label, "von Mises stress")
 
     def test_one_hot_cell_does_not_take_all_colours(self):
         values = np.linspace(0, 1, 1000)
-        self.assertEqual(draw.colour_range(values), (0, 1, "neither"))
+        self.assertEqual(draw_fields.colour_range(values), (0, 1, "neither"))
         values[500] = 100
-        low, high, extend = draw.colour_range(values)
+        low, high, extend = draw_fields.colour_range(values)
         self.assertEqual(extend, "max")
         self.assertLess(high, 1.01)
-        low, high, _ = draw.colour_range(np.full(10, 3.0))
+        low, high, _ = draw_fields.colour_range(np.full(10, 3.0))
         self.assertLess(low, 3)
         self.assertGreater(high, 3)
 
@@ -289,8 +294,8 @@ class Draw(unittest.TestCase):
         self.assertIn("curves.csv", called("run", run))
 
     def test_formulae_are_printed_as_such(self):
-        self.assertEqual(draw.pretty("(2+pi)/sqrt(3)"), "(2+π)/√3")
-        self.assertEqual(draw.pretty("piercing, 2pi"), "piercing, 2π")
+        self.assertEqual(draw_charts.pretty("(2+pi)/sqrt(3)"), "(2+π)/√3")
+        self.assertEqual(draw_charts.pretty("piercing, 2pi"), "piercing, 2π")
 
 
 if __name__ == "__main__":
