@@ -188,8 +188,9 @@ private:
     if (not at or at->size() != 1)
       return complain(node, "at must be one curve and its value, "
                             "as in { z_B = 0.05 }");
-    const auto& [key, value] = *at->begin();
-    const std::string name(key.str());
+    const auto entry = at->begin(); // owns what it points to
+    const std::string name(entry->first.str());
+    const toml::node& value = entry->second;
     if (std::ranges::find(curves, name) == curves.end())
       complain(node, "no curve \"" + name + "\"" + hint(name, curves));
     reference.at = {name, number(&value, "at." + name).value_or(0)};

@@ -42,16 +42,16 @@ struct Reference
     at_most   ///< value <= reference; a ledger's number by magnitude
   };
 
-  std::string name;
-  std::string curve;  ///< name in curves.csv, or
-  std::string ledger; ///< "entry.number", number as in summary.json
+  std::string name = {};
+  std::string curve = {};  ///< name in curves.csv, or
+  std::string ledger = {}; ///< "entry.number", number as in summary.json
   Take take = Take::last;
-  std::pair<std::string, double> at; ///< other curve and its value
+  std::pair<std::string, double> at = {}; ///< other curve and its value
   Relation relation = Relation::near;
   double reference = 0;
-  double tolerance = 0; ///< absolute
-  std::string source;   ///< where the reference comes from
-  std::string unit;
+  double tolerance = 0;    ///< absolute
+  std::string source = {}; ///< where the reference comes from
+  std::string unit = {};
 };
 
 /// References of a file, and what is wrong with it.
@@ -64,7 +64,7 @@ struct References
 /// A reference and what the run has made of it.
 struct Check
 {
-  Reference reference;
+  Reference reference = {};
   std::optional<double> value = {}; ///< none: the run did not get there
   bool holds = false;
 };

@@ -19,7 +19,7 @@ namespace mmale::output
 /// What one timer has seen.
 struct Timing
 {
-  std::string name;
+  std::string name = {};
   double seconds = 0; ///< [s]
   double share = 0;   ///< of the wall time of the run [-]
   std::int64_t calls = 0;

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <dolfinx/fem/Function.h>
 #include <dolfinx/io/VTKFile.h>
+#include <fstream>
 #include <mpi.h>
 #include <stdexcept>
 #include <vector>
@@ -84,6 +85,33 @@ void copy(const NamedField& field, const Function& function,
   }
 }
 
+/// Files of an older run, perhaps with more ranks or more times.
+void remove_older(const std::filesystem::path& folder)
+{
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("fields") and name.ends_with("vtu"))
+      std::filesystem::remove(entry.path());
+  }
+}
+
+/// The file writer tells nothing of a full disk: a whole file has its end tag.
+/// @return empty, or what is wrong
+std::string broken(const std::filesystem::path& file)
+{
+  constexpr std::string_view tag = "</VTKFile>";
+  constexpr std::streamoff room = 20; // the tag and a line break
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? std::streamoff(in.tellg()) : 0;
+  std::string tail(static_cast<std::size_t>(std::min(size, room)), ' ');
+  in.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  if (in and tail.find(tag) != std::string::npos)
+    return {};
+  return "cannot write " + file.string() + " whole: is the disk full?";
+}
+
 /// Throws on all ranks if any has something to say.
 void agree(MPI_Comm comm, const std::string& complaint,
            const std::string& elsewhere)
@@ -102,7 +130,23 @@ struct Fields::Impl
   std::unique_ptr<dolfinx::io::VTKFile> vtk;
   std::vector<Entry> entries;
   std::map<std::string, FieldInfo> info;
-  std::size_t nodes = 0; // local, P1
+  int written = 0; // number of the next output
+
+  int rank() const
+  {
+    int out = 0;
+    MPI_Comm_rank(mesh->comm(), &out);
+    return out;
+  }
+
+  /// This rank's part of the last output, as the file writer names it.
+  std::filesystem::path piece() const
+  {
+    std::string number = std::to_string(written - 1);
+    number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
+    return file.parent_path()
+           / ("fields_p" + std::to_string(rank()) + "_" + number + ".vtu");
+  }
 
   void create(std::span<const NamedField> fields)
   {
@@ -141,6 +185,7 @@ Fields::Fields(std::shared_ptr<Mesh> mesh, std::filesystem::path folder)
           [&]
           {
             std::filesystem::create_directories(folder);
+            remove_older(folder);
             write_atomically(_impl->file, "");
           });
   _impl->vtk = std::make_unique<dolfinx::io::VTKFile>(_impl->mesh->comm(),
@@ -176,6 +221,11 @@ void Fields::write(double t, std::span<const NamedField> fields)
   else
     _impl->vtk->write<double>(list, t);
   _impl->vtk->flush();
+  ++_impl->written;
+  complaint = broken(_impl->piece());
+  if (complaint.empty() and _impl->rank() == 0)
+    complaint = broken(_impl->file);
+  agree(comm, complaint, elsewhere);
 }
 
 const std::map<std::string, FieldInfo>& Fields::info() const

@@ -26,11 +26,12 @@ enum class Location
 /// θθ rz). Files hold vectors with 3 and tensors with 9 components.
 struct NamedField
 {
-  std::string name;
+  std::string name = {};
   Location location = Location::cell;
   int components = 1;
-  std::span<const double> values; ///< shape (local nodes or cells, components)
-  std::string unit;               ///< for colour bars; empty: a plain number
+  std::span<const double> values =
+      {};                ///< shape (local nodes or cells, components)
+  std::string unit = {}; ///< for colour bars; empty: a plain number
 };
 
 class Fields

@@ -14,8 +14,8 @@ namespace mmale::output
 /// The balance closes when end = start + through_surface + booked.
 struct LedgerEntry
 {
-  std::string name; ///< e.g. "mass"
-  std::string unit; ///< e.g. "kg/m"
+  std::string name = {}; ///< e.g. "mass"
+  std::string unit = {}; ///< e.g. "kg/m"
   double start = 0;
   double end = 0;
   double through_surface = 0; ///< net, inward is +

@@ -20,14 +20,14 @@ namespace mmale::output
 struct ReferenceLine
 {
   double value = 0;
-  std::string label;
+  std::string label = {};
 };
 
 /// Curves over one abscissa in one picture.
 struct Chart
 {
-  std::string name;                ///< of the file, without ".png"
-  std::string x;                   ///< column of curves.csv
+  std::string name = {};           ///< of the file, without ".png"
+  std::string x = {};              ///< column of curves.csv
   std::vector<std::string> y = {}; ///< columns of curves.csv
   std::vector<ReferenceLine> references = {};
 };
@@ -35,18 +35,18 @@ struct Chart
 /// What a field is, for its colour bar.
 struct FieldInfo
 {
-  std::string unit; ///< empty for a number without unit
+  std::string unit = {}; ///< empty for a number without unit
 };
 
 /// What draw.py is told.
 struct Pictures
 {
-  std::string title;
+  std::string title = {};
   std::vector<Chart> charts = {};
-  std::map<std::string, scene::Picture> fields; ///< by name of the file
-  std::map<std::string, FieldInfo> info;        ///< by name of the field
-  std::string field_file = "fields.pvd";        ///< in the folder of the run
-  std::string arrows = "velocity";              ///< nodal field drawn as arrows
+  std::map<std::string, scene::Picture> fields = {}; ///< by name of the file
+  std::map<std::string, FieldInfo> info = {};        ///< by name of the field
+  std::string field_file = "fields.pvd"; ///< in the folder of the run
+  std::string arrows = "velocity";       ///< nodal field drawn as arrows
   bool axisymmetric = false;
 };
 
