@@ -149,7 +149,7 @@ def draw_mesh(ax, grid, faint):
             grid.points[triangulation],
             colors="white" if faint else "#5b6b7a",
             linewidths=width,
-            alpha=0.55 if faint else 1,
+            alpha=0.55 * np.clip(typical / 0.02, 0.25, 1) if faint else 1,
             zorder=2,
         )
     )

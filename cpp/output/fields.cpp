@@ -150,12 +150,13 @@ struct Fields::Impl
 
   void create(std::span<const NamedField> fields)
   {
+    std::vector<Entry> made; // nothing is kept of a list that is refused
     for (const NamedField& f : fields)
-    {
-      entries.push_back(
+      made.push_back(
           {f.name, f.location, f.components, make_function(mesh, f)});
+    entries = std::move(made);
+    for (const NamedField& f : fields)
       info[f.name] = {.unit = f.unit};
-    }
   }
 
   void fill(std::span<const NamedField> fields)
