@@ -95,6 +95,16 @@ struct TimeSeries
   double integral(double t) const;
 };
 
+/// A rigid upright wall that a free surface may come to touch and cannot pass,
+/// like the flank of a punch.
+struct Wall
+{
+  double x = required;         ///< [m]
+  std::string grip = "smooth"; ///< "smooth": slides and lifts off; "rough":
+                               ///< what has touched it moves with it
+  std::optional<TimeSeries> velocity_y; ///< of a rough wall [m/s]
+};
+
 /// What holds on a named boundary during a stage.
 ///
 /// Displacements count from the start of the stage. `velocity_*` is their
@@ -107,6 +117,7 @@ struct Condition
   std::optional<TimeSeries> velocity_x, velocity_y;         ///< [m/s]
   std::optional<TimeSeries> traction_x, traction_y; ///< force on the body [Pa]
   std::optional<TimeSeries> pressure; ///< follows the surface, inward is + [Pa]
+  std::optional<Wall> wall;
 };
 
 /// A stretch of time with its own boundary conditions, loads and steps.

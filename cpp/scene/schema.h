@@ -30,7 +30,7 @@ concept OneOf = (std::same_as<T, U> or ...);
 
 template <class T>
 concept Table =
-    OneOf<T, Mesh, Grading, Boundary, Material, Condition, Stage, Solver, Remap,
+    OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Stage, Solver, Remap,
           Tracer, Motion, Curve, Line, Picture, Output, Scene>;
 
 template <class T>
@@ -159,6 +159,18 @@ void keys(V& v, Motion& m)
     m.revolutions);
 }
 
+inline const std::vector<std::string> grips = {"smooth", "rough"};
+
+template <class V>
+void keys(V& v, Wall& w)
+{
+  v({"x", "m", "Where the upright wall stands."}, w.x);
+  v({"grip", "", "Smooth: slides and lifts off; rough: holds what it touches.",
+     {}, grips},
+    w.grip);
+  v({"velocity_y", "m/s", "Velocity of a rough wall along y."}, w.velocity_y);
+}
+
 template <class V>
 void keys(V& v, Condition& c)
 {
@@ -174,6 +186,8 @@ void keys(V& v, Condition& c)
   v({"traction_y", "Pa", "Force on the body along y per area."}, c.traction_y);
   v({"pressure", "Pa", "Pressure on the body, stays normal to the surface."},
     c.pressure);
+  v({"wall", "", "Rigid upright wall that it may touch and cannot pass."},
+    c.wall);
 }
 
 template <class V>
