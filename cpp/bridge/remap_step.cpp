@@ -137,6 +137,7 @@ struct RemapStep::Impl
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void make_admissible(State& state, RemapLog& log);
   void find_spacing();
+  std::vector<double> at_home(const std::vector<double>& moved) const;
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -153,6 +154,8 @@ struct RemapStep::Impl
   std::vector<double> direction, spacing;
   std::vector<::remap::quality::Target> targets;
   std::vector<std::uint8_t> flags;
+  bool whole = false;       // this remap is of the whole mesh
+  std::vector<double> home; // nodes after the last remap
 };
 
 namespace
@@ -178,6 +181,7 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
+  home = domain.initial_x;
   flags.resize(mesh.num_nodes());
   find_spacing();
   if (scene.remap.target == "initial")
@@ -247,8 +251,10 @@ bool RemapStep::due(const State& state, int number)
   if (o.every > 0 and number % o.every == 0)
   {
     std::ranges::fill(m.flags, std::uint8_t{1});
+    m.whole = true;
     return true;
   }
+  m.whole = false;
   if (o.quality_below <= 0)
     return false;
   const auto scope = m.clock.scope("2 smooth");
@@ -266,16 +272,51 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
     x = domain.initial_x;
     return true;
   }
-  x = state.x;
-  const auto outcome = smoothing->smooth(x, flags,
-                                         {.kinds = kinds,
-                                          .direction = direction,
-                                          .spacing = spacing,
-                                          .targets = targets},
-                                         host);
+  const ::remap::Constraints constraints{.kinds = kinds,
+                                         .direction = direction,
+                                         .spacing = spacing,
+                                         .targets = targets};
+  auto outcome = ::remap::Outcome::inverted_start;
+  if (whole)
+  {
+    x = at_home(state.x);
+    outcome = smoothing->smooth(x, flags, constraints, host);
+  }
+  if (outcome != ::remap::Outcome::ok)
+  {
+    x = state.x;
+    outcome = smoothing->smooth(x, flags, constraints, host);
+  }
   if (outcome != ::remap::Outcome::ok)
     log.trouble = ::remap::describe(outcome);
   return outcome == ::remap::Outcome::ok;
+}
+
+/// Where smoothing of the whole mesh starts: inner nodes where they were after
+/// the last remap, nodes of walls likewise but for the wall's own motion, so
+/// that the mesh follows the boundary and does not drift with the flow.
+std::vector<double>
+RemapStep::Impl::at_home(const std::vector<double>& moved) const
+{
+  std::vector<double> x = moved;
+  for (std::size_t n = 0; n < kinds.size(); ++n)
+  {
+    const auto was = ::remap::point(home, static_cast<int>(n)),
+               is = ::remap::point(moved, static_cast<int>(n));
+    auto start = is;
+    if (kinds[n] == ::remap::Kind::free)
+      start = was;
+    else if (kinds[n] == ::remap::Kind::slide)
+    {
+      const ::remap::Point along{direction[2 * n], direction[2 * n + 1]};
+      start = is
+              + (::remap::dot(was - is, along) / ::remap::dot(along, along))
+                    * along;
+    }
+    x[2 * n] = start.x;
+    x[2 * n + 1] = start.y;
+  }
+  return x;
 }
 
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,
@@ -349,6 +390,7 @@ void RemapStep::run(State& state, RemapLog& log)
   if (not _impl->smooth(state, x, log)
       or not _impl->transport(state, x, log))
     return;
+  _impl->home = state.x;
   _impl->make_admissible(state, log);
   log.quality = worst_quality(_impl->domain, state);
   log.done = true;

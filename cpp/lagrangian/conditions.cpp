@@ -13,6 +13,18 @@ double at(const std::optional<scene::TimeSeries>& series, double t)
 {
   return series ? (*series)(t) : 0.0;
 }
+
+/// On which side of an upright wall a boundary lies: the mean of its nodes
+/// tells. Collective.
+double side_of_body(const mesh::Domain& domain, int boundary, double wall)
+{
+  double sum = 0;
+  for (int n : domain.boundary_nodes(boundary))
+    if (n < domain.num_owned_nodes)
+      sum += domain.initial_x[2 * n] - wall;
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, domain.comm);
+  return sum >= 0 ? 1 : -1;
+}
 } // namespace
 
 Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
@@ -42,6 +54,11 @@ Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
       }
       if (prescribed and (c.traction_x or c.traction_y or c.pressure))
         _loaded.push_back({b, c.traction_x, c.traction_y, c.pressure});
+      if (prescribed and c.wall)
+        _walls.push_back({b, c.wall->x, side_of_body(domain, b, c.wall->x),
+                          c.wall->grip == "rough",
+                          c.wall->velocity_y.value_or(
+                              scene::TimeSeries{{}, {0.0}})});
     }
 }
 
@@ -63,8 +80,7 @@ void Conditions::increments(double t0, double t1, std::span<double> g) const
   for (std::size_t i = 0; i < _series.size(); ++i)
   {
     const auto& [f, rate] = _series[i];
-    // the middle of the step: exact while the rate is linear
-    value[i] = rate ? f(0.5 * (t0 + t1)) * (t1 - t0)
+    value[i] = rate ? f.integral(t1) - f.integral(t0)
                     : f(t1) - (t0 > 0 ? f(t0) : 0.0);
   }
   for (const auto& [unknown, series] : _held)

@@ -18,6 +18,16 @@ struct Load
   double pressure;    ///< inward [Pa]
 };
 
+/// A rigid upright wall that the nodes of a boundary may touch.
+struct Wall
+{
+  int boundary;
+  double x;       ///< [m]
+  double sign;    ///< +1: the body lies to the right of it
+  bool rough;     ///< what has touched it moves with it
+  scene::TimeSeries velocity_y; ///< of a rough one [m/s]
+};
+
 /// What a stage prescribes, unknown by unknown (ux, uy, p a node).
 class Conditions
 {
@@ -35,6 +45,8 @@ public:
 
   /// Loads at time t, boundaries without load left out.
   std::vector<Load> loads(double t) const;
+
+  std::span<const Wall> walls() const { return _walls; }
 
   /// Gravity at time t [m/s2].
   std::array<double, 2> gravity(double t) const;
@@ -62,6 +74,7 @@ private:
   std::vector<Held> _held;
   std::vector<Series> _series;
   std::vector<Loaded> _loaded;
+  std::vector<Wall> _walls;
   std::optional<std::array<scene::TimeSeries, 2>> _gravity;
 };
 } // namespace mmale::lagrangian

@@ -126,6 +126,7 @@ void Problem::create_solver()
 void Problem::set_stage(const scene::Stage& stage)
 {
   _conditions.emplace(_domain, stage);
+  _contact.emplace(_domain, *_conditions);
   _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
   _guess.clear();
 }
@@ -416,17 +417,16 @@ void Problem::name_worst(NewtonLog& log)
   log.failure = _failure;
 }
 
-bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
+/// Conditions, loads and constants of the step to solve.
+void Problem::prepare(const State& state, double t0, double t1)
 {
-  const auto scope = _clock.scope("1 lagrangian");
   _state = &state;
-  _conditions->increments(t0, t1, _increment);
   _loads = _conditions->loads(t1);
   const auto g = _conditions->gravity(t1);
-  const auto g_n = t0 > 0 ? _conditions->gravity(t0) : _gravity;
   _constants.dt = t1 - t0;
   std::ranges::copy(g, _constants.g);
-  std::ranges::copy(g_n, _constants.g_n);
+  std::ranges::copy(t0 > 0 ? _conditions->gravity(t0) : _gravity,
+                    _constants.g_n);
   _facets_of_cell.clear();
   for (const Load& load : _loads)
     for (const mesh::Facet& f : _domain.facets)
@@ -436,46 +436,86 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
         _facets_of_cell.resize(_domain.num_owned_cells);
         _facets_of_cell[f.cell].push_back(f);
       }
+}
 
-  // First from the last step's motion, then from rest.
-  for (const bool guessed : {true, false})
-  {
-    if (guessed and _guess.empty())
-      continue;
-    log.residuals.clear();
-    log.failure = {};
-    PetscScalar* x = nullptr;
-    VecGetArray(_x, &x);
-    for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
-      if (i % 3 == 2)
-        x[i] = state.p[i / 3] * _length / _stress;
-      else if (not guessed)
-        x[i] = 0;
-      else
-        x[i] = _holder[i] >= 0 ? _increment[i]
-                               : _guess[i] * (t1 - t0) / _guess_dt;
-    VecRestoreArray(_x, &x);
-    SNESSetApplicationContext(_snes, &log);
-    _failed = false;
-    SNESSolve(_snes, nullptr, _x);
-    PetscInt iterations = 0;
-    SNESGetIterationNumber(_snes, &iterations);
-    log.iterations += static_cast<int>(iterations);
-    SNESConvergedReason reason;
-    SNESGetConvergedReason(_snes, &reason);
-    if (reason > 0)
-    {
-      _element.accept(state, _z.array(), t1 - t0);
-      _guess.assign(_z.array().begin(),
-                    _z.array().begin() + 3 * _domain.num_owned_nodes);
-      _guess_dt = t1 - t0;
-      _gravity = g;
-      return true;
-    }
+/// What is held in this step: the stage's conditions, and contact.
+void Problem::hold(double t0, double t1)
+{
+  _conditions->increments(t0, t1, _increment);
+  std::ranges::copy(_conditions->holder(), _holder.begin());
+  _contact->apply(_state->x, _holder, _increment);
+}
+
+/// First iterate of Newton.
+void Problem::start(Start from, double dt)
+{
+  const auto z = _z.array();
+  PetscScalar* x = nullptr;
+  VecGetArray(_x, &x);
+  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+    if (from == Start::here)
+      x[i] = i % 3 == 2 ? z[i] * _length / _stress : z[i];
+    else if (i % 3 == 2)
+      x[i] = _state->p[i / 3] * _length / _stress;
+    else if (from == Start::rest)
+      x[i] = 0;
+    else
+      x[i] = _holder[i] >= 0 ? _increment[i] : _guess[i] * dt / _guess_dt;
+  VecRestoreArray(_x, &x);
+}
+
+bool Problem::newton(NewtonLog& log)
+{
+  log.residuals.clear();
+  log.failure = {};
+  SNESSetApplicationContext(_snes, &log);
+  _failed = false;
+  SNESSolve(_snes, nullptr, _x);
+  PetscInt iterations = 0;
+  SNESGetIterationNumber(_snes, &iterations);
+  log.iterations += static_cast<int>(iterations);
+  SNESConvergedReason reason;
+  SNESGetConvergedReason(_snes, &reason);
+  if (reason <= 0)
     name_worst(log);
+  return reason > 0;
+}
+
+/// Newton, and again while nodes come to or leave a wall.
+bool Problem::equilibrium(Start from, double t0, double t1, NewtonLog& log)
+{
+  _contact->begin_step(_state->x, t0, t1);
+  for (int round = 0; round < max_contact_rounds; ++round)
+  {
+    hold(t0, t1);
+    start(round == 0 ? from : Start::here, t1 - t0);
+    if (not newton(log))
+      return false;
+    if (_contact->empty()
+        or not _contact->update(_state->x, _z.array(), _force.array()))
+      return true;
   }
-  _guess.clear();
+  agree_on_failure(0, "contact with a wall did not settle");
+  log.failure = _failure;
   return false;
+}
+
+bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
+{
+  const auto scope = _clock.scope("1 lagrangian");
+  prepare(state, t0, t1);
+  const bool solved
+      = (not _guess.empty() and equilibrium(Start::guess, t0, t1, log))
+        or equilibrium(Start::rest, t0, t1, log);
+  _guess.clear();
+  if (not solved)
+    return false;
+  _element.accept(state, _z.array(), t1 - t0);
+  _guess.assign(_z.array().begin(),
+                _z.array().begin() + 3 * _domain.num_owned_nodes);
+  _guess_dt = t1 - t0;
+  std::copy_n(_constants.g, 2, _gravity.begin());
+  return true;
 }
 
 std::vector<std::array<double, 2>> Problem::reactions() const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "conditions.h"
+#include "contact.h"
 #include "element.h"
 #include "output/clock.h"
 #include <array>
@@ -75,6 +75,21 @@ private:
   void agree_on_failure(int cell, const std::string& why);
   void name_worst(NewtonLog& log);
 
+  /// Where Newton starts from.
+  enum class Start
+  {
+    guess, ///< the last step's motion, scaled
+    rest,  ///< no motion
+    here   ///< the last solution
+  };
+  /// Changes of the contact set in a step. More: patience with flutter.
+  static constexpr int max_contact_rounds = 10;
+  void prepare(const State& state, double t0, double t1);
+  void hold(double t0, double t1);
+  void start(Start from, double dt);
+  bool newton(NewtonLog& log);
+  bool equilibrium(Start from, double t0, double t1, NewtonLog& log);
+
   const mesh::Domain& _domain;
   scene::Symmetry _symmetry;
   scene::Solver _options;
@@ -84,6 +99,7 @@ private:
   double _stress, _length; ///< scales [Pa], [m]
 
   std::optional<Conditions> _conditions;
+  std::optional<Contact> _contact;
   std::vector<int> _holder;             ///< owned and ghost unknowns
   std::vector<double> _increment;       ///< of held unknowns
   std::vector<double> _guess;           ///< last step's increment

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mmale::lagrangian
+{
+Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
+    : _domain(domain),
+      _walls(conditions.walls().begin(), conditions.walls().end())
+{
+  double size = 0;
+  for (double x : domain.initial_x)
+    size = std::max(size, std::abs(x));
+  MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, domain.comm);
+  _gap = 1e-9 * size;
+  for (std::size_t w = 0; w < _walls.size(); ++w)
+    for (int n : domain.boundary_nodes(_walls[w].boundary))
+      if (conditions.holder()[3 * n] < 0) // a punch's corner is the punch's
+        _candidates.push_back({n, static_cast<int>(w)});
+  _rise.resize(_walls.size());
+}
+
+void Contact::begin_step(std::span<const double> x, double t0, double t1)
+{
+  for (std::size_t w = 0; w < _walls.size(); ++w)
+    _rise[w] = _walls[w].velocity_y.integral(t1)
+               - _walls[w].velocity_y.integral(t0);
+  for (Candidate& c : _candidates)
+  {
+    const Wall& wall = _walls[c.wall];
+    c.held = wall.sign * (x[2 * c.node] - wall.x) <= _gap;
+    c.let_go = 0;
+  }
+}
+
+bool Contact::update(std::span<const double> x, std::span<const double> z,
+                     std::span<const double> force)
+{
+  // Owners decide; ghosts follow.
+  std::vector<double> held(_domain.num_nodes(), 0);
+  int changed = 0;
+  for (Candidate& c : _candidates)
+  {
+    if (c.node >= _domain.num_owned_nodes)
+      continue;
+    const Wall& wall = _walls[c.wall];
+    const double gap
+        = wall.sign * (x[2 * c.node] + z[3 * c.node] - wall.x);
+    const bool pulled = wall.sign * force[3 * c.node] < 0;
+    if (c.held and not wall.rough and pulled and c.let_go < 2)
+    {
+      c.held = false;
+      ++c.let_go;
+      changed = 1;
+    }
+    else if (not c.held and gap < -_gap)
+    {
+      c.held = true;
+      changed = 1;
+    }
+    held[c.node] = c.held;
+  }
+  mesh::update_ghosts(_domain.nodes(), held, 1);
+  for (Candidate& c : _candidates)
+    c.held = held[c.node] > 0;
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, _domain.comm);
+  return changed != 0;
+}
+
+void Contact::apply(std::span<const double> x, std::span<int> holder,
+                    std::span<double> increment) const
+{
+  for (const Candidate& c : _candidates)
+  {
+    if (not c.held)
+      continue;
+    const Wall& wall = _walls[c.wall];
+    holder[3 * c.node] = wall.boundary;
+    increment[3 * c.node] = wall.x - x[2 * c.node];
+    if (wall.rough)
+    {
+      holder[3 * c.node + 1] = wall.boundary;
+      increment[3 * c.node + 1] = _rise[c.wall];
+    }
+  }
+}
+} // namespace mmale::lagrangian

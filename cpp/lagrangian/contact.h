@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "conditions.h"
+
+namespace mmale::lagrangian
+{
+/// Nodes of free surfaces at rigid walls: an active set (METHOD.md, step 1c).
+///
+/// A node at a wall is held by prescribing its normal displacement, so that it
+/// never passes; the reaction tells when a smooth wall lets go. What touches a
+/// rough wall goes with it, both ways, from then on.
+class Contact
+{
+public:
+  /// Collective.
+  Contact(const mesh::Domain& domain, const Conditions& conditions);
+
+  /// Nodes that stand at a wall when a step begins.
+  ///
+  /// @param[in] x     nodes, shape (n, 2) [m]
+  /// @param[in] t0,t1 step, from the start of the stage [s]
+  void begin_step(std::span<const double> x, double t0, double t1);
+
+  /// Take up nodes that have passed a wall, let go those that it pulls.
+  /// Collective.
+  ///
+  /// @param[in] x     at the start of the step, shape (n, 2) [m]
+  /// @param[in] z     unknowns at its end, shape (n, 3)
+  /// @param[in] force residual, shape (n, 3)
+  /// @return has any rank changed the set?
+  bool update(std::span<const double> x, std::span<const double> z,
+              std::span<const double> force);
+
+  /// Add what is held now to the unknowns' holders and increments.
+  ///
+  /// @param[in,out] holder    boundary that holds an unknown, shape (n, 3)
+  /// @param[in,out] increment prescribed, shape (n, 3) [m]
+  void apply(std::span<const double> x, std::span<int> holder,
+             std::span<double> increment) const;
+
+  bool empty() const { return _candidates.empty(); }
+
+private:
+  struct Candidate
+  {
+    int node;
+    int wall;          ///< index into _walls
+    bool held = false;
+    int let_go = 0;    ///< times in this step; a node that flutters stays
+  };
+  const mesh::Domain& _domain;
+  std::vector<Wall> _walls;
+  std::vector<Candidate> _candidates; ///< owned and ghost
+  std::vector<double> _rise;          ///< of each wall in this step [m]
+  double _gap;                        ///< closer than this is touching [m]
+};
+} // namespace mmale::lagrangian
