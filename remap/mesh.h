@@ -40,7 +40,8 @@ using Triple = std::array<std::int32_t, 3>;
 
 /// What the host knows. Numbers are local; owned cells and nodes come first.
 /// Needed: every cell that shares a vertex with an owned cell is here too, and
-/// every owned node belongs to an owned cell.
+/// every owned node belongs to an owned cell. Ranks that share a cell list its
+/// nodes in the same order.
 struct MeshInput
 {
   std::span<const std::int32_t> cells;    ///< nodes, shape (num_cells, 3)
@@ -134,6 +135,7 @@ public:
 private:
   void build_node_cells();
   void build_facets();
+  void orient_facets();
   void build_node_nodes();
   void build_cell_cells();
   void mark(const MeshInput& input);
