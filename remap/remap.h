@@ -98,7 +98,9 @@ private:
   template <Geometry G>
   void measure(bool with_ring, const Host& host);
   template <Geometry G>
-  [[nodiscard]] double measure_next(std::span<const double> y);
+  void measure_next(std::span<const double> y);
+  [[nodiscard]] bool inverted(std::span<const double> volumes,
+                              const Host& host);
   template <Geometry G>
   void sweep();
   template <Geometry G>
