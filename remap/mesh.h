@@ -44,17 +44,18 @@ using Triple = std::array<std::int32_t, 3>;
 /// nodes in the same order.
 struct MeshInput
 {
-  std::span<const std::int32_t> cells;    ///< nodes, shape (num_cells, 3)
-  std::span<const double> x;              ///< shape (num_nodes, 2) [m]
-  std::size_t owned_cells = 0;            ///< first cells that are ours
-  std::size_t owned_nodes = 0;            ///< first nodes that are ours
-  std::span<const std::int64_t> cell_ids; ///< global, shape (num_cells); empty:
-                                          ///< the local numbers
-  std::span<const std::int64_t> node_ids; ///< global, shape (num_nodes); empty:
-                                          ///< the local numbers
-  std::span<const std::int32_t> marked;   ///< nodes of marked boundary facets,
-                                          ///< shape (num_marked, 2)
-  std::span<const std::int32_t> markers;  ///< their markers >= 0, (num_marked)
+  std::span<const std::int32_t> cells; ///< nodes, shape (num_cells, 3)
+  std::span<const double> x;           ///< shape (num_nodes, 2) [m]
+  std::size_t owned_cells = 0;         ///< first cells that are ours
+  std::size_t owned_nodes = 0;         ///< first nodes that are ours
+  /// Global numbers, shape (num_cells); empty: the local ones.
+  std::span<const std::int64_t> cell_ids = {};
+  /// Global numbers, shape (num_nodes); empty: the local ones.
+  std::span<const std::int64_t> node_ids = {};
+  /// Nodes of marked boundary facets, shape (num_marked, 2).
+  std::span<const std::int32_t> marked = {};
+  /// Their markers >= 0, shape (num_marked).
+  std::span<const std::int32_t> markers = {};
 };
 
 /// Topology of a triangle mesh.

@@ -129,10 +129,7 @@ void smooth(benchmark::State& state)
     state.PauseTiming();
     x = b.to;
     state.ResumeTiming();
-    if (smoothing.smooth(
-            x, flags,
-            {.kinds = kinds, .direction = {}, .spacing = {}, .targets = {}}, {})
-        != Outcome::ok)
+    if (smoothing.smooth(x, flags, {.kinds = kinds}, {}) != Outcome::ok)
       state.SkipWithError("smoothing failed");
   }
   state.counters["nodes/s"] =

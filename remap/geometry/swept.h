@@ -91,9 +91,15 @@ inline SweptParts swept_parts(const Motion& m)
 /// round-off size the quotient of moment and volume means nothing.
 inline Point centroid_in(const Moments& part, const Motion& m)
 {
-  const auto [x0, x1] = std::minmax({m.p0.x, m.q0.x, m.p1.x, m.q1.x});
-  const auto [y0, y1] = std::minmax({m.p0.y, m.q0.y, m.p1.y, m.q1.y});
+  // Pairwise, so that no branch is taken.
+  const auto hold = [](double v, double a, double b, double c, double d)
+  {
+    const double lo = std::min(std::min(a, b), std::min(c, d));
+    const double hi = std::max(std::max(a, b), std::max(c, d));
+    return std::min(std::max(v, lo), hi);
+  };
   const Point c = part.centroid();
-  return {std::min(std::max(c.x, x0), x1), std::min(std::max(c.y, y0), y1)};
+  return {hold(c.x, m.p0.x, m.q0.x, m.p1.x, m.q1.x),
+          hold(c.y, m.p0.y, m.q0.y, m.p1.y, m.q1.y)};
 }
 } // namespace remap

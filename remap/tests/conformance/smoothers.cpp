@@ -99,13 +99,9 @@ TEMPLATE_LIST_TEST_CASE("smoother: never inverts and never makes worse",
   {
     Smoothing smoothing(
         mesh, {.smoother = TestType{}, .measure = measure, .sweeps = 1}, {});
-    REQUIRE(smoothing.smooth(x, flags,
-                             {.kinds = kinds,
-                              .direction = direction,
-                              .spacing = {},
-                              .targets = {}},
-                             {})
-            == Outcome::ok);
+    REQUIRE(
+        smoothing.smooth(x, flags, {.kinds = kinds, .direction = direction}, {})
+        == Outcome::ok);
     const double now = worst_quality(mesh, x, measure, {}, {});
     CHECK(now >= last);
     CHECK(smoothing.report().worst_after == now);
@@ -131,11 +127,7 @@ TEMPLATE_LIST_TEST_CASE("smoother: the best mesh stays to the last bit",
     auto x = meshes::turned(data.x, angle, {100, -20});
     const auto x0 = x;
     Smoothing smoothing(mesh, {.smoother = TestType{}}, {});
-    REQUIRE(smoothing.smooth(
-                x, flags,
-                {.kinds = kinds, .direction = {}, .spacing = {}, .targets = {}},
-                {})
-            == Outcome::ok);
+    REQUIRE(smoothing.smooth(x, flags, {.kinds = kinds}, {}) == Outcome::ok);
     CHECK(x == x0);
     CHECK(smoothing.report().moved == 0);
   }
@@ -152,11 +144,7 @@ TEMPLATE_LIST_TEST_CASE(
   const auto smooth = [&](std::vector<double> x)
   {
     Smoothing smoothing(mesh, {.smoother = TestType{}, .sweeps = 2}, {});
-    REQUIRE(smoothing.smooth(
-                x, flags,
-                {.kinds = kinds, .direction = {}, .spacing = {}, .targets = {}},
-                {})
-            == Outcome::ok);
+    REQUIRE(smoothing.smooth(x, flags, {.kinds = kinds}, {}) == Outcome::ok);
     return x;
   };
   const auto x = meshes::shaken(data.x, 0.03, 3);
@@ -180,11 +168,7 @@ TEMPLATE_LIST_TEST_CASE("smoother: nodes without a flag stay to the last bit",
   std::vector<std::uint8_t> flags(mesh.num_nodes());
   REQUIRE(smoothing.flag(x, {}, flags, {}));
   const auto kinds = kinds_of(data, Kind::fixed);
-  REQUIRE(smoothing.smooth(
-              x, flags,
-              {.kinds = kinds, .direction = {}, .spacing = {}, .targets = {}},
-              {})
-          == Outcome::ok);
+  REQUIRE(smoothing.smooth(x, flags, {.kinds = kinds}, {}) == Outcome::ok);
   CHECK(flags[bad] == 1);
   CHECK(std::count(flags.begin(), flags.end(), 1) < 40);
   for (std::size_t i = 0; i < flags.size(); ++i)
@@ -207,9 +191,7 @@ TEMPLATE_LIST_TEST_CASE("smoother: an inverted cell is reported, nothing moves",
   Smoothing smoothing(mesh, {.smoother = TestType{}}, {});
   const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
   const auto kinds = inner_free(mesh);
-  CHECK(smoothing.smooth(
-            x, flags,
-            {.kinds = kinds, .direction = {}, .spacing = {}, .targets = {}}, {})
+  CHECK(smoothing.smooth(x, flags, {.kinds = kinds}, {})
         == Outcome::inverted_start);
   CHECK(x == x0);
   const auto around = mesh.node_cells()[24];

@@ -13,14 +13,8 @@ int main()
   const std::vector<double> x = {0, 0, 1, 0, 1, 1, 0, 1};
   const std::vector<double> y = {0, 0, 1, 0, 1.1, 1.1, 0, 1};
   const std::vector<std::int32_t> cells = {0, 1, 2, 0, 2, 3};
-  const remap::Mesh mesh({.cells = cells,
-                          .x = x,
-                          .owned_cells = 2,
-                          .owned_nodes = 4,
-                          .cell_ids = {},
-                          .node_ids = {},
-                          .marked = {},
-                          .markers = {}});
+  const remap::Mesh mesh(
+      {.cells = cells, .x = x, .owned_cells = 2, .owned_nodes = 4});
   remap::Remapper remapper(mesh, {});
   std::vector<double> density = {1, 2};
   const remap::Field field{.values = density};

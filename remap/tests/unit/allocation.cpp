@@ -57,8 +57,7 @@ TEST_CASE("remap and smoothing allocate nothing after set-up", "[allocation]")
                         ? Kind::fixed
                         : Kind::free);
   std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
-  const Constraints constraints{
-      .kinds = kinds, .direction = {}, .spacing = {}, .targets = {}};
+  const Constraints constraints{.kinds = kinds};
   const auto from = meshes::shaken(data.x, 0.015, 3);
   auto to = from;
   const auto once = [&]

@@ -92,12 +92,9 @@ Result smooth_and_remap(const Start& start, const ranks::Part& part,
     }
     auto to = out.x;
     smoothing.flag(to, {}, flags, host);
-    const Outcome smoothed = smoothing.smooth(to, flags,
-                                              {.kinds = kinds,
-                                               .direction = direction,
-                                               .spacing = spacing,
-                                               .targets = {}},
-                                              host);
+    const Outcome smoothed = smoothing.smooth(
+        to, flags, {.kinds = kinds, .direction = direction, .spacing = spacing},
+        host);
     const Field cells{.values = out.cells, .components = 2};
     const Field nodes{.values = out.nodes, .components = 3};
     const Outcome carried =

@@ -114,7 +114,7 @@ TEST_CASE("remapper: volumes beside no moved node keep every bit", "[remap]")
 {
   const meshes::Data data = meshes::rectangle(20, 20, Diagonal::crossed);
   const Mesh mesh = data.mesh();
-  Remapper remapper(mesh, {.boundaries = {}, .nodal_components = 1});
+  Remapper remapper(mesh, {.nodal_components = 1});
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> draw(1.0, 2.0);
   std::vector<double> u(mesh.num_cells()), w(mesh.num_nodes());
@@ -212,8 +212,7 @@ TEST_CASE("remapper: a move that passes through nothing says so", "[remap]")
 
 TEST_CASE("remapper: bad options are all named at once", "[remap]")
 {
-  const Options bad{
-      .max_loss = std::nan(""), .max_cycles = 0, .boundaries = {}};
+  const Options bad{.max_loss = std::nan(""), .max_cycles = 0};
   CHECK(bad.complaints().size() == 2);
   const Mesh mesh = meshes::rectangle(2, 2, Diagonal::right).mesh();
   CHECK_THROWS_AS(Remapper(mesh, bad), std::invalid_argument);

@@ -85,13 +85,9 @@ TEST_CASE("smoothing: surface nodes regain their spacing and keep the volume",
   REQUIRE(before > 1.2);
   Smoothing smoothing(w.mesh, {.geometry = geometry, .sweeps = 300}, {});
   const std::vector<std::uint8_t> flags(w.mesh.num_nodes(), 1);
-  REQUIRE(smoothing.smooth(w.x, flags,
-                           {.kinds = w.kinds,
-                            .direction = {},
-                            .spacing = w.spacing,
-                            .targets = {}},
-                           {})
-          == Outcome::ok);
+  REQUIRE(
+      smoothing.smooth(w.x, flags, {.kinds = w.kinds, .spacing = w.spacing}, {})
+      == Outcome::ok);
   // 16 nodes relax like heat: 300 sweeps leave nothing to speak of.
   CHECK(w.unevenness() < 1.001);
   CHECK(std::abs(w.volume(geometry) - volume) < 1e-13 * volume);
@@ -111,13 +107,9 @@ TEST_CASE("smoothing: a graded surface regains its grading", "[smoothing]")
     w.spacing[f] = at *= 1.1;
   Smoothing smoothing(w.mesh, {.threshold = 0.1, .sweeps = 400}, {});
   const std::vector<std::uint8_t> flags(w.mesh.num_nodes(), 1);
-  REQUIRE(smoothing.smooth(w.x, flags,
-                           {.kinds = w.kinds,
-                            .direction = {},
-                            .spacing = w.spacing,
-                            .targets = {}},
-                           {})
-          == Outcome::ok);
+  REQUIRE(
+      smoothing.smooth(w.x, flags, {.kinds = w.kinds, .spacing = w.spacing}, {})
+      == Outcome::ok);
   CHECK(w.unevenness() < 1.01);
 }
 
@@ -129,11 +121,7 @@ TEST_CASE(
   const double volume = w.volume(Geometry::plane);
   Smoothing smoothing(w.mesh, {}, {});
   const std::vector<std::uint8_t> flags(w.mesh.num_nodes(), 1);
-  REQUIRE(smoothing.smooth(
-              w.x, flags,
-              {.kinds = w.kinds, .direction = {}, .spacing = {}, .targets = {}},
-              {})
-          == Outcome::ok);
+  REQUIRE(smoothing.smooth(w.x, flags, {.kinds = w.kinds}, {}) == Outcome::ok);
   CHECK(smoothing.report().worst_after > smoothing.report().worst_before);
   CHECK(std::abs(w.volume(Geometry::plane) - volume) < 1e-14);
 }
@@ -163,11 +151,7 @@ TEST_CASE("smoothing: optimisation finds the lattice again", "[smoothing]")
       x[2 * i] += shift(engine), x[2 * i + 1] += shift(engine);
   Smoothing smoothing(mesh, {.sweeps = 200}, {});
   const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
-  REQUIRE(smoothing.smooth(
-              x, flags,
-              {.kinds = kinds, .direction = {}, .spacing = {}, .targets = {}},
-              {})
-          == Outcome::ok);
+  REQUIRE(smoothing.smooth(x, flags, {.kinds = kinds}, {}) == Outcome::ok);
   for (std::size_t i = 0; i < x.size(); ++i)
     CHECK(x[i] == Approx(data.x[i]).margin(1e-7));
 }
@@ -186,8 +170,7 @@ TEST_CASE("smoothing: initial shapes as targets keep a graded mesh graded",
       for (std::int32_t i : mesh.facet(f))
         kinds[i] = Kind::fixed;
   const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
-  const Constraints constraints{
-      .kinds = kinds, .direction = {}, .spacing = {}, .targets = targets};
+  const Constraints constraints{.kinds = kinds, .targets = targets};
   Smoothing smoothing(mesh, {.measure = Measure::shape, .sweeps = 300}, {});
 
   auto x = data.x;
@@ -230,15 +213,11 @@ TEST_CASE("smoothing: troubles are outcomes", "[smoothing]")
   const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
   const std::vector<Kind> slide(mesh.num_nodes(), Kind::slide);
   auto x = data.x;
-  CHECK(smoothing.smooth(
-            x, flags,
-            {.kinds = slide, .direction = {}, .spacing = {}, .targets = {}}, {})
+  CHECK(smoothing.smooth(x, flags, {.kinds = slide}, {})
         == Outcome::wrong_size);
   x[3] = std::nan("");
   const std::vector<Kind> fixed(mesh.num_nodes(), Kind::fixed);
-  CHECK(smoothing.smooth(
-            x, flags,
-            {.kinds = fixed, .direction = {}, .spacing = {}, .targets = {}}, {})
+  CHECK(smoothing.smooth(x, flags, {.kinds = fixed}, {})
         == Outcome::not_finite);
   const SmoothingOptions bad{
       .threshold = 2, .rings = -1, .sweeps = 0, .relaxation = 0};
