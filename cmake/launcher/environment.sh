@@ -281,7 +281,7 @@ remove_old_roots()
     while IFS= read -r user; do
       [[ $user != "$here" && -e $user/packages.txt ]] && continue 2
     done < <(cat "$old.users" 2> /dev/null)
-    flock -n "$old" true && rm -rf "$old" "$old.users" "$old.log"
+    (flock -n 7) 7< "$old" && rm -rf "$old" "$old.users" "$old.log"
   done
 }
 
@@ -304,16 +304,16 @@ inside()
   [[ $way == native ]] && exec "$@"
   local name folder home=$cache/home options=()
   mkdir -p "$home" 2> /dev/null && [[ -w $home ]] || home=/tmp
-  export HOME=$home MPLCONFIGDIR=$home/.config/matplotlib MMALE_INSIDE=$environment
-  export PATH=/usr/sbin:/usr/bin LANG=C.UTF-8
   for name in $(compgen -e); do
     case $name in
-      PATH | HOME | LANG | LC_ALL | TERM | COLUMNS | LINES) ;;
-      MMALE_* | MPL* | OMP_* | OMPI_* | PRTE_* | PMIX_* | PETSC_* | CTEST_* | NINJA_STATUS) ;;
+      TERM | COLUMNS | LINES | LC_ALL | NINJA_STATUS) ;;
+      MMALE_* | MPL* | OMP_* | OMPI_* | PRTE_* | PMIX_* | PETSC_* | CTEST_*) ;;
       *) continue ;;
     esac
     options+=(--setenv "$name" "${!name}")
   done
+  options+=(--setenv PATH /usr/sbin:/usr/bin --setenv HOME "$home"
+    --setenv MPLCONFIGDIR "$home/.config/matplotlib" --setenv MMALE_INSIDE "$environment")
   [[ $home == /tmp ]] || writable+=("$home")
   for folder in "${writable[@]}"; do
     mkdir -p "$folder" 2> /dev/null
