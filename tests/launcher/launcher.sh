@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Tests of the launcher of the tree in folder $1, each in its own sandbox
 # (fakes.sh). Every test says a sentence; what it expects is written by hand.
+# shellcheck disable=SC2016 # $ in single quotes is for the fakes to expand
 set -u -o pipefail
-# shellcheck disable=SC2016 # what the fakes say is for them to expand
 source=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -286,7 +286,7 @@ mmale demo > "$sandbox/said" 2>&1 &
 set +m
 for ((i = 0; i < 200; i++)); do grep -q '^mmdebstrap' "$fake/log" && break; sleep 0.05; done
 first=$!
-for pid in $(grep -lsaz "^FAKE=$fake" /proc/[0-9]*/environ | cut -d / -f 3); do
+grep -lsaz "^FAKE=$fake" /proc/[0-9]*/environ | cut -d / -f 3 | while read -r pid; do
   kill -KILL "$pid" 2> /dev/null
 done
 wait "$first" 2> /dev/null
