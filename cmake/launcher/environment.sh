@@ -21,7 +21,7 @@ packages() { sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$here/packages.txt" | sort 
 
 choose_environment()
 {
-  local hash kind known
+  local hash kind='' known=''
   hash=$(packages | sha256sum)
   hash=${hash:0:12}
   read -r kind known 2> /dev/null < "$here/build/$preset.environment"
@@ -29,13 +29,14 @@ choose_environment()
     way=native environment=$MMALE_INSIDE
     return
   fi
-  if [[ ${kind:-} == native && -e ${known##* } && $known == "$hash $here "* ]]; then
+  if [[ $kind == native && -e ${known##* } && $known == "$hash $here "* ]]; then
     way=native environment="native $known"
     return
   fi
   way=root
-  if [[ ${kind:-} == root ]] && find_root "$hash" && have bwrap; then
-    environment="root $root $here"
+  root=${known% "$here"}
+  if [[ $kind == root && $root == */debian13-$hash && -d $root/usr ]] && have bwrap; then
+    cache=${root%/*} environment="root $root $here"
     return
   fi
   if native "$hash"; then return; fi

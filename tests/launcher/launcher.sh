@@ -252,6 +252,14 @@ call demo
 expect_code 0
 expect_roots "$sandbox/xdg/mmale" 1
 
+begin "a build goes on with its root when MMALE_CACHE is no longer set"
+settings=(MMALE_CACHE="$sandbox/elsewhere")
+call demo
+settings=()
+call demo
+expect_code 0
+expect_count "mmdebstrap --mode" 1
+
 begin "no space in the cache, then none for making it, are told; then it works"
 echo 0.5 > "$fake/candidate"
 echo 1000 > "$fake/free"
@@ -309,7 +317,9 @@ for way in INT:130 TERM:143; do
   kill -s "${way%:*}" $!
   wait $!
   code=$?
+  out=$(cat "$sandbox/said")
   expect_code "${way#*:}"
+  expect "interrupted; the next call begins again"
   expect_roots "$(cache)" 0
 done
 
