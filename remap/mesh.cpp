@@ -109,6 +109,7 @@ Mesh::Mesh(const MeshInput& in)
   _node_ids = ids_or_local(in.node_ids, in.x.size() / 2);
   build_node_cells();
   build_facets();
+  orient_facets();
   build_node_nodes();
   build_cell_cells();
   mark(in);
@@ -164,6 +165,19 @@ void Mesh::build_facets()
             _cell_facets[d][j] = f;
           }
         }
+    }
+}
+
+void Mesh::orient_facets()
+{
+  // From the smaller global number to the larger, so that what a facet sweeps
+  // is the same to the last bit on every rank that sees it.
+  for (std::int32_t f = 0; f < num_facets(); ++f)
+    if (_facet_cells[f][1] >= 0
+        and _node_ids[_facets[f][0]] > _node_ids[_facets[f][1]])
+    {
+      std::swap(_facets[f][0], _facets[f][1]);
+      std::swap(_facet_cells[f][0], _facet_cells[f][1]);
     }
 }
 

@@ -40,20 +40,22 @@ using Triple = std::array<std::int32_t, 3>;
 
 /// What the host knows. Numbers are local; owned cells and nodes come first.
 /// Needed: every cell that shares a vertex with an owned cell is here too, and
-/// every owned node belongs to an owned cell.
+/// every owned node belongs to an owned cell. Ranks that share a cell list its
+/// nodes in the same order.
 struct MeshInput
 {
-  std::span<const std::int32_t> cells;    ///< nodes, shape (num_cells, 3)
-  std::span<const double> x;              ///< shape (num_nodes, 2) [m]
-  std::size_t owned_cells = 0;            ///< first cells that are ours
-  std::size_t owned_nodes = 0;            ///< first nodes that are ours
-  std::span<const std::int64_t> cell_ids; ///< global, shape (num_cells); empty:
-                                          ///< the local numbers
-  std::span<const std::int64_t> node_ids; ///< global, shape (num_nodes); empty:
-                                          ///< the local numbers
-  std::span<const std::int32_t> marked;   ///< nodes of marked boundary facets,
-                                          ///< shape (num_marked, 2)
-  std::span<const std::int32_t> markers;  ///< their markers >= 0, (num_marked)
+  std::span<const std::int32_t> cells; ///< nodes, shape (num_cells, 3)
+  std::span<const double> x;           ///< shape (num_nodes, 2) [m]
+  std::size_t owned_cells = 0;         ///< first cells that are ours
+  std::size_t owned_nodes = 0;         ///< first nodes that are ours
+  /// Global numbers, shape (num_cells); empty: the local ones.
+  std::span<const std::int64_t> cell_ids = {};
+  /// Global numbers, shape (num_nodes); empty: the local ones.
+  std::span<const std::int64_t> node_ids = {};
+  /// Nodes of marked boundary facets, shape (num_marked, 2).
+  std::span<const std::int32_t> marked = {};
+  /// Their markers >= 0, shape (num_marked).
+  std::span<const std::int32_t> markers = {};
 };
 
 /// Topology of a triangle mesh.
@@ -134,6 +136,7 @@ public:
 private:
   void build_node_cells();
   void build_facets();
+  void orient_facets();
   void build_node_nodes();
   void build_cell_cells();
   void mark(const MeshInput& input);

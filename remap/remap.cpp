@@ -185,24 +185,25 @@ void Remapper::measure(bool with_ring, const Host& host)
         std::span(&_nodes.centroid[0].x, std::size_t(2) * _nodes.num), 2);
 }
 
-/// Volumes at y. Returns the global number of a cell that inverts, else -1.
+/// Volumes at y.
 template <Geometry G>
-double Remapper::measure_next(std::span<const double> y)
+void Remapper::measure_next(std::span<const double> y)
+{
+  for (std::int32_t c : _cells.touched)
+    _cells.next[c] = cell_moments<G>(*_mesh, c, y).v;
+  for (std::int32_t i : _nodes.touched)
+    _nodes.next[i] = dual::volume<G>(*_mesh, i, y).v;
+}
+
+/// Does a cell of any rank have no positive volume? Then the report names it.
+bool Remapper::inverted(std::span<const double> volumes, const Host& host)
 {
   double worst = -1;
   for (std::int32_t c : _cells.touched)
-  {
-    _cells.next[c] = cell_moments<G>(*_mesh, c, y).v;
-    const Triple& n = _mesh->cell(c);
-    // The plane area decides: r·A is 0 on the axis only if A is.
-    const double area =
-        twice_area(point(y, n[0]), point(y, n[1]), point(y, n[2]));
-    if (c < _mesh->owned_cells() and not(area > 0 and _cells.next[c] > 0))
+    if (c < _mesh->owned_cells() and not(volumes[c] > 0))
       worst = std::max(worst, static_cast<double>(_mesh->cell_ids()[c]));
-  }
-  for (std::int32_t i : _nodes.touched)
-    _nodes.next[i] = dual::volume<G>(*_mesh, i, y).v;
-  return worst;
+  _report.worst_cell = static_cast<std::int64_t>(host.max(worst));
+  return _report.worst_cell >= 0;
 }
 
 template <Geometry G>
@@ -378,31 +379,33 @@ Outcome Remapper::run(std::span<const Field> cells,
                       std::span<const Field> nodes, const Host& host,
                       Ledger& ledger)
 {
-  _report.worst_cell =
-      static_cast<std::int64_t>(host.max(measure_next<G>(_x_old)));
-  if (_report.worst_cell >= 0)
-    return Outcome::inverted_start;
-  _report.worst_cell =
-      static_cast<std::int64_t>(host.max(measure_next<G>(_x_new)));
-  if (_report.worst_cell >= 0)
-    return Outcome::inverted_target;
-
   exchange_touched(host);
   std::copy(_x_old.begin(), _x_old.end(), _x.begin());
   std::copy(_x_old.begin(), _x_old.end(), _y.begin());
+  measure<G>(true, host);
+  if (inverted(_cells.volume, host))
+    return Outcome::inverted_start;
+  measure_next<G>(_x_new);
+  if (inverted(_cells.next, host))
+    return Outcome::inverted_target;
+
   double at = 0;
   int left = 1;
   while (at < 1)
   {
-    measure<G>(at == 0, host);
+    if (_report.cycles > 0)
+      measure<G>(false, host);
     if (const Outcome o = choose_cycle<G>(at, left, host); o != Outcome::ok)
       return o;
+    // In one cycle the volumes at the end are known and good.
+    if (_report.cycles > 0 or left > 1)
+    {
+      measure_next<G>(_y);
+      if (inverted(_cells.next, host))
+        return Outcome::inverted_path;
+    }
     at = left == 1 ? 1 : at + (1 - at) / left;
     --left;
-    _report.worst_cell =
-        static_cast<std::int64_t>(host.max(measure_next<G>(_y)));
-    if (_report.worst_cell >= 0)
-      return Outcome::inverted_path;
     carry(cells, nodes, host);
     ++_report.cycles;
     for (std::int32_t i : _moved_nodes)

@@ -33,7 +33,7 @@ struct Options
   /// More sub-cycles than this end in `too_many_cycles`. Doubled: longer moves.
   int max_cycles = 200;
   /// What each boundary marker does; a facet without a marker is closed.
-  std::vector<Boundary> boundaries;
+  std::vector<Boundary> boundaries = {};
   int cell_components = 1;  ///< of the widest cell field that will come; or 0
   int nodal_components = 0; ///< of the widest nodal field; 0: no dual mesh
 
@@ -98,7 +98,9 @@ private:
   template <Geometry G>
   void measure(bool with_ring, const Host& host);
   template <Geometry G>
-  [[nodiscard]] double measure_next(std::span<const double> y);
+  void measure_next(std::span<const double> y);
+  [[nodiscard]] bool inverted(std::span<const double> volumes,
+                              const Host& host);
   template <Geometry G>
   void sweep();
   template <Geometry G>

@@ -21,7 +21,7 @@ packages() { sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$here/packages.txt" | sort 
 
 choose_environment()
 {
-  local hash kind known
+  local hash kind='' known=''
   hash=$(packages | sha256sum)
   hash=${hash:0:12}
   read -r kind known 2> /dev/null < "$here/build/$preset.environment"
@@ -29,13 +29,14 @@ choose_environment()
     way=native environment=$MMALE_INSIDE
     return
   fi
-  if [[ ${kind:-} == native && -e ${known##* } && $known == "$hash $here "* ]]; then
+  if [[ $kind == native && -e ${known##* } && $known == "$hash $here "* ]]; then
     way=native environment="native $known"
     return
   fi
   way=root
-  if [[ ${kind:-} == root ]] && find_root "$hash" && have bwrap; then
-    environment="root $root $here"
+  root=${known% "$here"}
+  if [[ $kind == root && $root == */debian13-$hash && -d $root/usr ]] && have bwrap; then
+    cache=${root%/*} environment="root $root $here"
     return
   fi
   if native "$hash"; then return; fi
@@ -281,7 +282,7 @@ remove_old_roots()
     while IFS= read -r user; do
       [[ $user != "$here" && -e $user/packages.txt ]] && continue 2
     done < <(cat "$old.users" 2> /dev/null)
-    flock -n "$old" true && rm -rf "$old" "$old.users" "$old.log"
+    (flock -n 7) 7< "$old" && rm -rf "$old" "$old.users" "$old.log"
   done
 }
 
@@ -304,16 +305,16 @@ inside()
   [[ $way == native ]] && exec "$@"
   local name folder home=$cache/home options=()
   mkdir -p "$home" 2> /dev/null && [[ -w $home ]] || home=/tmp
-  export HOME=$home MPLCONFIGDIR=$home/.config/matplotlib MMALE_INSIDE=$environment
-  export PATH=/usr/sbin:/usr/bin LANG=C.UTF-8
   for name in $(compgen -e); do
     case $name in
-      PATH | HOME | LANG | LC_ALL | TERM | COLUMNS | LINES) ;;
-      MMALE_* | MPL* | OMP_* | OMPI_* | PRTE_* | PMIX_* | PETSC_* | CTEST_* | NINJA_STATUS) ;;
+      TERM | COLUMNS | LINES | LC_ALL | NINJA_STATUS) ;;
+      MMALE_* | MPL* | OMP_* | OMPI_* | PRTE_* | PMIX_* | PETSC_* | CTEST_*) ;;
       *) continue ;;
     esac
     options+=(--setenv "$name" "${!name}")
   done
+  options+=(--setenv PATH /usr/sbin:/usr/bin --setenv HOME "$home"
+    --setenv MPLCONFIGDIR "$home/.config/matplotlib" --setenv MMALE_INSIDE "$environment")
   [[ $home == /tmp ]] || writable+=("$home")
   for folder in "${writable[@]}"; do
     mkdir -p "$folder" 2> /dev/null

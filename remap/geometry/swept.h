@@ -35,35 +35,49 @@ struct SweptParts
   int count = 1;
 };
 
-/// Do the segments (a, b) and (c, d) cross in their interior? If so, where.
-inline bool crossing(Point a, Point b, Point c, Point d, Point& at)
+/// Where the outline p0 q0 q1 p1 crosses itself.
+struct Crossing
 {
-  const double sa = twice_area(c, d, a);
-  const double sb = twice_area(c, d, b);
-  if (not(sa * sb < 0))
-    return false;
-  if (not(twice_area(a, b, c) * twice_area(a, b, d) < 0))
-    return false;
-  at = a + (sa / (sa - sb)) * (b - a);
-  return true;
+  enum
+  {
+    none,
+    facets, ///< the facet before and the facet after cross: it turns
+    paths,  ///< the ways of its ends cross: it is turned over
+  } kind = none;
+  Point at;
+};
+
+inline Crossing crossing(const Motion& m)
+{
+  const Point d = m.q0 - m.p0; // facet before
+  const Point e = m.q1 - m.p1; // and after
+  const Point a = m.p1 - m.p0; // way of p
+  const Point b = m.q1 - m.q0; // and of q
+  // Four products tell on which side of each line each other end lies.
+  const double da = cross(d, a), db = cross(d, b);
+  const double ea = cross(e, a), eb = cross(e, b);
+  if (da * db < 0 and ea * eb < 0)
+    return {Crossing::facets, m.p0 + (ea / (ea - eb)) * d};
+  if (da * ea < 0 and db * eb < 0)
+    return {Crossing::paths, m.p0 + (db / (db - eb)) * a};
+  return {};
 }
 
 /// Swept region, cut where its outline crosses itself, so that each part lies
-/// on one side and has one donor. The parts add up to `swept` exactly.
+/// on one side and has one donor. The parts add up to `swept` to the last bit
+/// but one: the second is the whole less the first.
 template <Geometry G>
-SweptParts swept_parts(const Motion& m)
+inline SweptParts swept_parts(const Motion& m)
 {
   SweptParts out;
   const Moments all = swept<G>(m);
   out.part[0] = all;
-  Point at;
-  Moments first;
-  if (crossing(m.p0, m.q0, m.p1, m.q1, at))
-    first = triangle<G>(m.p0, at, m.p1);
-  else if (crossing(m.p0, m.p1, m.q0, m.q1, at))
-    first = triangle<G>(m.p0, m.q0, at);
-  else
+  const Crossing x = crossing(m);
+  if (x.kind == Crossing::none)
     return out;
+  const Moments first = x.kind == Crossing::facets
+                            ? triangle<G>(m.p0, x.at, m.p1)
+                            : triangle<G>(m.p0, m.q0, x.at);
   const Moments second = all - first;
   if (not(first.v * second.v < 0))
     return out;
@@ -77,9 +91,15 @@ SweptParts swept_parts(const Motion& m)
 /// round-off size the quotient of moment and volume means nothing.
 inline Point centroid_in(const Moments& part, const Motion& m)
 {
-  const auto [x0, x1] = std::minmax({m.p0.x, m.q0.x, m.p1.x, m.q1.x});
-  const auto [y0, y1] = std::minmax({m.p0.y, m.q0.y, m.p1.y, m.q1.y});
+  // Pairwise, so that no branch is taken.
+  const auto hold = [](double v, double a, double b, double c, double d)
+  {
+    const double lo = std::min(std::min(a, b), std::min(c, d));
+    const double hi = std::max(std::max(a, b), std::max(c, d));
+    return std::min(std::max(v, lo), hi);
+  };
   const Point c = part.centroid();
-  return {std::min(std::max(c.x, x0), x1), std::min(std::max(c.y, y0), y1)};
+  return {hold(c.x, m.p0.x, m.q0.x, m.p1.x, m.q1.x),
+          hold(c.y, m.p0.y, m.q0.y, m.p1.y, m.q1.y)};
 }
 } // namespace remap

@@ -5,11 +5,13 @@
 
 #include "remap/quality/quality.h"
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace remap
 {

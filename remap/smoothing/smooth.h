@@ -57,15 +57,16 @@ struct SmoothingOptions
 /// What nodes may do and want.
 struct Constraints
 {
-  std::span<const Kind> kinds; ///< shape (num_nodes)
-  std::span<const double>
-      direction;                   ///< of sliding nodes, any length > 0, shape
-                                   ///< (num_nodes, 2); empty if none slides
-  std::span<const double> spacing; ///< wanted length of each facet (only
-                                   ///< ratios matter), shape (num_facets);
-                                   ///< empty: see `Kind::surface`
-  std::span<const quality::Target> targets; ///< shape (num_cells); empty:
-                                            ///< equilateral
+  /// Shape (num_nodes).
+  std::span<const Kind> kinds;
+  /// Of sliding nodes, any length > 0, shape (num_nodes, 2); empty if none
+  /// slides.
+  std::span<const double> direction = {};
+  /// Wanted length of each facet (only ratios matter), shape (num_facets);
+  /// empty: see `Kind::surface`.
+  std::span<const double> spacing = {};
+  /// Shape (num_cells); empty: equilateral.
+  std::span<const quality::Target> targets = {};
 };
 
 /// What one call did. Qualities are over the cells around flagged nodes, and

@@ -22,6 +22,15 @@ struct Piece
   std::int32_t marker = -1; ///< of the boundary facet, if one end is outside
 };
 
+/// Swept volume below which round-off speaks, not motion.
+template <Geometry G>
+double sliver(const Motion& m)
+{
+  const Point e = m.q0 - m.p0;
+  const double area = 1e-13 * dot(e, e);
+  return G == Geometry::plane ? area : area * std::max(m.p0.x, m.q0.x);
+}
+
 /// Geometry and room for a set of volumes.
 struct ControlVolumes
 {
@@ -133,6 +142,10 @@ struct ControlVolumes
       p.to = part.v > 0 ? right : left;
       p.volume = part.v > 0 ? part.v : -part.v;
       p.at = centroid_in(part, m);
+      // Of round-off size: the centroid means nothing and must not limit a
+      // gradient. Such a piece carries the mean.
+      if (p.volume < sliver<G>(m) and p.from >= 0)
+        p.at = centroid[p.from];
       p.marker = marker;
       if (p.from >= 0)
       {

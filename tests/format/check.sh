@@ -4,6 +4,8 @@
 # failure, not a pass.
 cd "$1" || exit 1
 failed=0
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
 
 # The files of the tree whose names end in one of the arguments.
 sources()
@@ -14,7 +16,8 @@ sources()
     -o -type f \( "${pattern[@]:1}" \) -print0
 }
 
-# Runs "${@:2}" on the files that end in one of the words of $1.
+# Runs "${@:2}" on the files that end in one of the words of $1; the start of
+# what it says is enough to find them.
 check()
 {
   local files endings
@@ -22,7 +25,9 @@ check()
   mapfile -d '' files < <(sources "${endings[@]}")
   ((${#files[@]})) || return
   echo "${*:2}: ${#files[@]} files"
-  "${@:2}" "${files[@]}" || failed=1
+  "${@:2}" "${files[@]}" > "$said" 2>&1 && return
+  failed=1
+  head -n 40 "$said"
 }
 
 check "cpp h" clang-format --dry-run --Werror

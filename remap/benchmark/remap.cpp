@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// How fast: cells a second of a remap on 131 072 triangles (256² squares cut in
+// two), inner nodes moved at random by up to a quarter of a square, and the
+// memory bandwidth of the same machine in the same run.
+
+#include "remap/remap.h"
+#include "remap/smoothing/smooth.h"
+#include "remap/tests/meshes.h"
+
+#include <benchmark/benchmark.h>
+
+using namespace remap;
+
+namespace
+{
+constexpr int n = 256;
+
+/// The mesh, built once.
+struct Bench
+{
+  meshes::Data data = meshes::rectangle(n, n, meshes::Diagonal::crossed);
+  Mesh mesh = data.mesh();
+  std::vector<double> to = meshes::shaken(data.x, 0.25 / n, 1);
+
+  static const Bench& get()
+  {
+    static const Bench bench;
+    return bench;
+  }
+};
+
+/// Remap `components` numbers a cell; max_loss 0.999 lets it go in one cycle,
+/// as the peers do.
+void remap_cells(benchmark::State& state, const Scheme& scheme)
+{
+  const Bench& b = Bench::get();
+  const auto components = static_cast<int>(state.range(0));
+  Remapper remapper(b.mesh, {.scheme = scheme,
+                             .max_loss = 0.999,
+                             .boundaries = std::vector(4, Boundary::closed),
+                             .cell_components = components});
+  std::vector<double> u(std::size_t(components) * b.mesh.num_cells());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = 1 + 1e-6 * static_cast<double>(i);
+  const Field field{.values = u, .components = components};
+  Ledger ledger;
+  bool there = true;
+  int cycles = 0;
+  for (auto _ : state)
+  {
+    if (remapper.remap(there ? b.data.x : b.to, there ? b.to : b.data.x,
+                       {&field, 1}, {}, {}, ledger)
+        != Outcome::ok)
+      state.SkipWithError("remap failed");
+    there = not there;
+    cycles = remapper.report().cycles;
+  }
+  state.counters["cells/s"] = benchmark::Counter(
+      b.mesh.num_cells(), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["cycles"] = cycles;
+}
+
+void donor_cell(benchmark::State& state)
+{
+  remap_cells(state, scheme::DonorCell{});
+}
+void limited_linear(benchmark::State& state)
+{
+  remap_cells(state, scheme::LimitedLinear{});
+}
+
+/// Only a part of the nodes moves: cost follows the patches.
+void one_per_cent(benchmark::State& state)
+{
+  const Bench& b = Bench::get();
+  Remapper remapper(b.mesh, {.max_loss = 0.999,
+                             .boundaries = std::vector(4, Boundary::closed)});
+  auto to = b.data.x;
+  for (std::size_t k = 0; k < to.size() / 200; ++k)
+    to[to.size() / 4 + k] = b.to[to.size() / 4 + k];
+  std::vector<double> u(b.mesh.num_cells(), 1.0);
+  const Field field{.values = u};
+  Ledger ledger;
+  for (auto _ : state)
+    if (remapper.remap(b.data.x, to, {&field, 1}, {}, {}, ledger)
+        != Outcome::ok)
+      state.SkipWithError("remap failed");
+  state.counters["touched"] = remapper.report().touched_cells;
+}
+
+void nodal(benchmark::State& state)
+{
+  const Bench& b = Bench::get();
+  Remapper remapper(b.mesh, {.max_loss = 0.999,
+                             .boundaries = std::vector(4, Boundary::closed),
+                             .nodal_components = 3});
+  std::vector<double> w(std::size_t(3) * b.mesh.num_nodes(), 1.0);
+  const Field field{.values = w, .components = 3, .group = 3};
+  Ledger ledger;
+  bool there = true;
+  for (auto _ : state)
+  {
+    if (remapper.remap(there ? b.data.x : b.to, there ? b.to : b.data.x, {},
+                       {&field, 1}, {}, ledger)
+        != Outcome::ok)
+      state.SkipWithError("remap failed");
+    there = not there;
+  }
+  state.counters["nodes/s"] = benchmark::Counter(
+      b.mesh.num_nodes(), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// One sweep over all inner nodes.
+template <class S>
+void smooth(benchmark::State& state)
+{
+  const Bench& b = Bench::get();
+  Smoothing smoothing(b.mesh, {.smoother = S{}, .sweeps = 1}, {});
+  std::vector<Kind> kinds;
+  for (std::size_t i = 0; i < b.data.x.size(); i += 2)
+    kinds.push_back(meshes::on_outline({b.data.x[i], b.data.x[i + 1]})
+                        ? Kind::fixed
+                        : Kind::free);
+  const std::vector<std::uint8_t> flags(kinds.size(), 1);
+  auto x = b.to;
+  for (auto _ : state)
+  {
+    state.PauseTiming();
+    x = b.to;
+    state.ResumeTiming();
+    if (smoothing.smooth(x, flags, {.kinds = kinds}, {}) != Outcome::ok)
+      state.SkipWithError("smoothing failed");
+  }
+  state.counters["nodes/s"] =
+      benchmark::Counter(static_cast<double>(kinds.size()),
+                         benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// a = b + s c over arrays far larger than the caches.
+void bandwidth(benchmark::State& state)
+{
+  const std::size_t size = 1 << 24;
+  std::vector<double> a(size, 0.0), b(size, 1.0), c(size, 2.0);
+  for (auto _ : state)
+  {
+    for (std::size_t i = 0; i < size; ++i)
+      a[i] = b[i] + 3 * c[i];
+    benchmark::DoNotOptimize(a.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * 3
+                                                    * size * sizeof(double)));
+}
+} // namespace
+
+BENCHMARK(bandwidth)->Unit(benchmark::kMillisecond);
+BENCHMARK(donor_cell)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+BENCHMARK(one_per_cent)->Unit(benchmark::kMillisecond);
+BENCHMARK(nodal)->Unit(benchmark::kMillisecond);
+BENCHMARK(smooth<smoother::Average>)->Unit(benchmark::kMillisecond);
+BENCHMARK(smooth<smoother::Optimise>)->Unit(benchmark::kMillisecond);
+BENCHMARK_MAIN();

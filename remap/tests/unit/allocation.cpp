@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// After set-up and a first call nothing is allocated.
+
+#include "remap/remap.h"
+#include "remap/smoothing/smooth.h"
+#include "remap/tests/meshes.h"
+
+#include <atomic>
+#include <catch2/catch_test_macros.hpp>
+#include <cstdlib>
+#include <new>
+
+namespace
+{
+std::atomic<long> allocations = 0;
+} // namespace
+
+// Counting replacements for the whole test program.
+void* operator new(std::size_t size)
+{
+  ++allocations;
+  if (void* p = std::malloc(size == 0 ? 1 : size))
+    return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept
+{
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept
+{
+  std::free(p);
+}
+
+using namespace remap;
+
+TEST_CASE("remap and smoothing allocate nothing after set-up", "[allocation]")
+{
+  const meshes::Data data =
+      meshes::rectangle(20, 20, meshes::Diagonal::crossed);
+  const Mesh mesh = data.mesh();
+  Remapper remapper(mesh, {.max_loss = 0.1,
+                           .boundaries = std::vector(4, Boundary::free_surface),
+                           .cell_components = 5,
+                           .nodal_components = 3});
+  Smoothing smoothing(mesh, {}, {});
+  std::vector<double> u(5 * mesh.num_cells(), 1.0),
+      w(3 * mesh.num_nodes(), 1.0);
+  const Field cells{.values = u, .components = 5};
+  const Field nodes{.values = w, .components = 3};
+  Ledger ledger;
+  const Host host;
+  std::vector<Kind> kinds;
+  for (std::size_t i = 0; i < data.x.size(); i += 2)
+    kinds.push_back(meshes::on_outline({data.x[i], data.x[i + 1]})
+                        ? Kind::fixed
+                        : Kind::free);
+  std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
+  const Constraints constraints{.kinds = kinds};
+  const auto from = meshes::shaken(data.x, 0.015, 3);
+  auto to = from;
+  const auto once = [&]
+  {
+    to = from; // no allocation: the sizes agree
+    smoothing.flag(to, {}, flags, host);
+    std::fill(flags.begin(), flags.end(), std::uint8_t(1));
+    return smoothing.smooth(to, flags, constraints, host) == Outcome::ok
+           and remapper.remap(from, to, {&cells, 1}, {&nodes, 1}, host, ledger)
+                   == Outcome::ok;
+  };
+  REQUIRE(once());
+  const long before = allocations;
+  const bool good = once();
+  const long after = allocations;
+  CHECK(good);
+  CHECK(remapper.report().cycles > 1);
+  CHECK(after == before);
+}

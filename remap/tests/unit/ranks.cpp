@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The same answer on one, two and three ranks, however the cells are dealt out.
+
+#include "remap/tests/ranks.h"
+#include "remap/remap.h"
+#include "remap/smoothing/smooth.h"
+
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
+
+using namespace remap;
+using meshes::Diagonal;
+
+namespace
+{
+constexpr int n = 14;
+
+/// What a run leaves, in global numbers.
+struct Result
+{
+  std::vector<double> x, cells, nodes;
+  Ledger ledger;
+  int cycles = 0;
+};
+
+/// What all ranks start from.
+struct Start
+{
+  Geometry geometry;
+  meshes::Data data = meshes::rectangle(n, n, Diagonal::crossed);
+  std::vector<double> x = meshes::shaken(data.x, 0.02, 7);
+  std::vector<double> cells, nodes;
+  std::vector<Kind> kinds;
+  std::vector<double> direction;
+
+  explicit Start(Geometry g) : geometry(g)
+  {
+    std::mt19937 engine(8);
+    std::uniform_real_distribution<double> draw(0.0, 1.0);
+    cells.resize(2 * data.cells.size() / 3);
+    nodes.resize(3 * data.x.size() / 2);
+    std::generate(cells.begin(), cells.end(), [&] { return draw(engine); });
+    std::generate(nodes.begin(), nodes.end(), [&] { return draw(engine); });
+    for (std::size_t i = 0; i < data.x.size(); i += 2)
+    {
+      const Point p = {data.x[i], data.x[i + 1]};
+      const bool vertical = p.x == 0 or p.x == 1;
+      kinds.push_back(p.y == 1 and not vertical   ? Kind::surface
+                      : not meshes::on_outline(p) ? Kind::free
+                      : vertical != (p.y == 0)    ? Kind::slide
+                                                  : Kind::fixed);
+      direction.push_back(vertical ? 0 : 1);
+      direction.push_back(vertical ? 1 : 0);
+    }
+  }
+};
+
+/// Smooth what is bad, then carry the fields; three times.
+Result smooth_and_remap(const Start& start, const ranks::Part& part,
+                        const Host& host)
+{
+  const Mesh mesh = part.mesh();
+  Smoothing smoothing(
+      mesh, {.geometry = start.geometry, .threshold = 0.75, .sweeps = 3}, host);
+  Remapper remapper(mesh, {.geometry = start.geometry,
+                           .max_loss = 0.2,
+                           .boundaries = std::vector(4, Boundary::free_surface),
+                           .cell_components = 2,
+                           .nodal_components = 3});
+  Result out;
+  out.x = ranks::Part::take(start.x, part.nodes, 2);
+  out.cells = ranks::Part::take(start.cells, part.cells, 2);
+  out.nodes = ranks::Part::take(start.nodes, part.nodes, 3);
+  const auto spacing =
+      facet_lengths(mesh, ranks::Part::take(start.data.x, part.nodes, 2));
+  const auto direction = ranks::Part::take(start.direction, part.nodes, 2);
+  std::vector<Kind> kinds;
+  for (std::int64_t i : part.nodes)
+    kinds.push_back(start.kinds[i]);
+  std::vector<std::uint8_t> flags(mesh.num_nodes());
+  for (int k = 0; k < 3; ++k)
+  {
+    // The body moves with its cells, walls stay; then it is remapped.
+    for (std::size_t i = 0; i < out.x.size(); i += 2)
+    {
+      const double s = 0.02 * std::sin(3 * out.x[i] + 2 * k)
+                       * std::sin(std::numbers::pi * out.x[i + 1]);
+      if (kinds[i / 2] == Kind::free)
+        out.x[i] += s, out.x[i + 1] -= s;
+    }
+    auto to = out.x;
+    smoothing.flag(to, {}, flags, host);
+    const Outcome smoothed = smoothing.smooth(
+        to, flags, {.kinds = kinds, .direction = direction, .spacing = spacing},
+        host);
+    const Field cells{.values = out.cells, .components = 2};
+    const Field nodes{.values = out.nodes, .components = 3};
+    const Outcome carried =
+        remapper.remap(out.x, to, {&cells, 1}, {&nodes, 1}, host, out.ledger);
+    if (smoothed != Outcome::ok or carried != Outcome::ok)
+      out.cycles = -1000; // Catch's checks are not for threads
+    out.x = to;
+    out.cycles += remapper.report().cycles;
+  }
+  return out;
+}
+
+/// Cells to ranks: in stripes, in blocks, or one by one at random.
+std::vector<int> deal(const meshes::Data& data, int size, int how)
+{
+  std::vector<int> out;
+  std::mt19937 engine(99);
+  for (std::size_t c = 0; c < data.cells.size() / 3; ++c)
+  {
+    const double x = data.x[2 * data.cells[3 * c]];
+    const double y = data.x[2 * data.cells[3 * c] + 1];
+    const double at = how == 0   ? x
+                      : how == 1 ? std::fmod(3 * x + 2 * y, 1.0)
+                                 : std::generate_canonical<double, 32>(engine);
+    out.push_back(std::min(size - 1, static_cast<int>(at * size)));
+  }
+  return out;
+}
+
+/// Largest difference of owned rows, in global numbers.
+double gap(std::span<const double> all, std::span<const double> part,
+           std::span<const std::int64_t> ids, int block)
+{
+  double out = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (int k = 0; k < block; ++k)
+      out = std::max(out,
+                     std::abs(all[block * ids[i] + k] - part[block * i + k]));
+  return out;
+}
+} // namespace
+
+TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
+          "[ranks]")
+{
+  const auto geometry = GENERATE(Geometry::plane, Geometry::axisymmetric);
+  const int size = GENERATE(2, 3);
+  const int how = GENERATE(0, 1, 2);
+  INFO("size " << size << ", dealt " << how);
+  const Start start(geometry);
+  ranks::World one(start.data, deal(start.data, 1, 0), 1);
+  Result alone;
+  one.run([&](int, const ranks::Part& p, const Host& host)
+          { alone = smooth_and_remap(start, p, host); });
+  REQUIRE(alone.cycles > 0);
+  // Back to global numbers: the parts are shuffled.
+  const auto unshuffled = [](std::span<const double> v,
+                             std::span<const std::int64_t> ids, int block)
+  {
+    std::vector<double> out(v.size());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      std::copy_n(v.begin() + block * i, block, out.begin() + block * ids[i]);
+    return out;
+  };
+  const ranks::Part& whole = one.parts[0];
+  const auto x = unshuffled(alone.x, whole.nodes, 2);
+  const auto cells = unshuffled(alone.cells, whole.cells, 2);
+  const auto nodes = unshuffled(alone.nodes, whole.nodes, 3);
+  // It did something.
+  REQUIRE(gap(start.x, alone.x, whole.nodes, 2) > 1e-3);
+
+  ranks::World world(start.data, deal(start.data, size, how), size);
+  std::vector<Result> results(size);
+  world.run([&](int r, const ranks::Part& p, const Host& host)
+            { results[r] = smooth_and_remap(start, p, host); });
+  for (int r = 0; r < size; ++r)
+  {
+    const ranks::Part& p = world.parts[r];
+    CHECK(results[r].cycles == alone.cycles);
+    // Sums around a node run in global order: not even round-off differs.
+    CHECK(gap(x, results[r].x, p.nodes, 2) == 0);
+    // Ghosts too are as their owners have them.
+    CHECK(gap(cells, results[r].cells, p.cells, 2) < 1e-13);
+    CHECK(gap(nodes, results[r].nodes, p.nodes, 3) < 1e-13);
+    for (int k = 0; k < 2; ++k)
+      CHECK(
+          std::abs(net(results[r].ledger.cells[k]) - net(alone.ledger.cells[k]))
+          < 1e-13);
+    for (int k = 0; k < 3; ++k)
+      CHECK(
+          std::abs(net(results[r].ledger.nodes[k]) - net(alone.ledger.nodes[k]))
+          < 1e-13);
+  }
+}
