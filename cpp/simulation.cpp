@@ -17,16 +17,15 @@ double tracer_value(const scene::Tracer& tracer, const mesh::Domain& domain,
   for (int n : domain.cells[cell])
     for (int d = 0; d < 2; ++d)
       centre[d] += domain.initial_x[2 * n + d] / 3;
-  const double distance = std::hypot(centre[0] - tracer.centre[0],
-                                     centre[1] - tracer.centre[1]);
+  const double distance =
+      std::hypot(centre[0] - tracer.centre[0], centre[1] - tracer.centre[1]);
   return distance < tracer.radius ? tracer.inside : tracer.outside;
 }
 } // namespace
 
 Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene)
-    : scene(scene),
-      domain(mesh::make_domain(comm, mesh::make_grid(scene.mesh),
-                               scene.boundary))
+    : scene(scene), domain(mesh::make_domain(comm, mesh::make_grid(scene.mesh),
+                                             scene.boundary))
 {
   const std::size_t nodes = domain.num_nodes(), cells = domain.num_cells();
   state.x = domain.initial_x;

@@ -25,8 +25,8 @@ Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
 void Contact::begin_step(std::span<const double> x, double t0, double t1)
 {
   for (std::size_t w = 0; w < _walls.size(); ++w)
-    _rise[w] = _walls[w].velocity_y.integral(t1)
-               - _walls[w].velocity_y.integral(t0);
+    _rise[w] =
+        _walls[w].velocity_y.integral(t1) - _walls[w].velocity_y.integral(t0);
   for (Candidate& c : _candidates)
   {
     const Wall& wall = _walls[c.wall];
@@ -46,8 +46,7 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
     if (c.node >= _domain.num_owned_nodes)
       continue;
     const Wall& wall = _walls[c.wall];
-    const double gap
-        = wall.sign * (x[2 * c.node] + z[3 * c.node] - wall.x);
+    const double gap = wall.sign * (x[2 * c.node] + z[3 * c.node] - wall.x);
     const bool pulled = wall.sign * force[3 * c.node] < 0;
     if (c.held and not wall.rough and pulled and c.let_go < 2)
     {

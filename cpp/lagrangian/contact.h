@@ -45,9 +45,9 @@ private:
   struct Candidate
   {
     int node;
-    int wall;          ///< index into _walls
+    int wall; ///< index into _walls
     bool held = false;
-    int let_go = 0;    ///< times in this step; a node that flutters stays
+    int let_go = 0; ///< times in this step; a node that flutters stays
   };
   const mesh::Domain& _domain;
   std::vector<Wall> _walls;

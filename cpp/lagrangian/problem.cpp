@@ -70,7 +70,8 @@ void Problem::create_matrix()
     local[n] = n;
   map.local_to_global(local, global);
   std::vector<PetscInt> row, column;
-  const std::size_t entries = 81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
+  const std::size_t entries =
+      81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
   row.reserve(entries);
   column.reserve(entries);
   for (int c = 0; c < _domain.num_owned_cells; ++c)
@@ -79,7 +80,8 @@ void Problem::create_matrix()
       {
         const auto& nodes = _domain.cells[c];
         row.push_back(static_cast<PetscInt>(3 * global[nodes[i / 3]] + i % 3));
-        column.push_back(static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
+        column.push_back(
+            static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
       }
   for (PetscInt i = 0; i < rows; ++i)
   {
@@ -193,7 +195,8 @@ void Problem::assemble_loads(std::span<double> force)
       const auto& nodes = _domain.cells[f.cell];
       for (int v = 0; v < 3; ++v)
         for (int d = 0; d < 2; ++d)
-          x[3 * v + d] = _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
+          x[3 * v + d] =
+              _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
       _load_R(R, {}, c, x, f.local);
       for (int i = 0; i < 9; ++i)
         force[3 * nodes[i / 3] + i % 3] += R[i];
@@ -215,7 +218,8 @@ void Problem::load_jacobian(int cell, double* J) const
     const auto& nodes = _domain.cells[cell];
     for (int v = 0; v < 3; ++v)
       for (int d = 0; d < 2; ++d)
-        x[3 * v + d] = _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
+        x[3 * v + d] =
+            _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
     _load_J(A, {}, c, x, f.local);
     for (int i = 0; i < 9; ++i)
       for (int j = 0; j < 9; ++j)
@@ -265,7 +269,8 @@ void Problem::assemble_residual(double* r)
   const double tiny = 1e-16 * _length * _stress;
   _norm_u = std::sqrt(all[0] / (all[3] + tiny * tiny));
   _norm_p = std::sqrt(all[1] / all[4]);
-  _norm_bc = all[2] > 0 ? std::sqrt(all[2] / (all[5] + 1e-32 * _length * _length)) : 0;
+  _norm_bc =
+      all[2] > 0 ? std::sqrt(all[2] / (all[5] + 1e-32 * _length * _length)) : 0;
 }
 
 PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
@@ -307,8 +312,8 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
         A[9 * i + j] *= held ? 0 : row[i % 3 == 2] * column[j % 3 == 2];
     }
   }
-  double* diagonal
-      = self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
+  double* diagonal =
+      self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
   for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
     diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
   PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
@@ -316,8 +321,8 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
 }
 
 /// Shorten a Newton step that would invert a cell.
-PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y,
-                                 PetscBool* changed, void* context)
+PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y, PetscBool* changed,
+                                 void* context)
 {
   PetscFunctionBeginUser;
   auto& self = *static_cast<Problem*>(context);
@@ -372,8 +377,7 @@ PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
   *reason = SNES_CONVERGED_ITERATING;
   if (not std::isfinite(fnorm))
     *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (self._norm_u <= tol and self._norm_p <= tol
-           and self._norm_bc <= tol)
+  else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
   void* log = nullptr;
   PetscCall(SNESGetApplicationContext(snes, &log));
@@ -398,8 +402,9 @@ void Problem::name_worst(NewtonLog& log)
   const auto force = _force.array();
   for (int n = 0; n < _domain.num_owned_nodes; ++n)
   {
-    const double f = std::hypot(_holder[3 * n] < 0 ? force[3 * n] : 0.0,
-                                _holder[3 * n + 1] < 0 ? force[3 * n + 1] : 0.0);
+    const double f =
+        std::hypot(_holder[3 * n] < 0 ? force[3 * n] : 0.0,
+                   _holder[3 * n + 1] < 0 ? force[3 * n + 1] : 0.0);
     if (f > worst.force)
     {
       worst.force = f;
@@ -504,9 +509,9 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
 {
   const auto scope = _clock.scope("1 lagrangian");
   prepare(state, t0, t1);
-  const bool solved
-      = (not _guess.empty() and equilibrium(Start::guess, t0, t1, log))
-        or equilibrium(Start::rest, t0, t1, log);
+  const bool solved =
+      (not _guess.empty() and equilibrium(Start::guess, t0, t1, log))
+      or equilibrium(Start::rest, t0, t1, log);
   _guess.clear();
   if (not solved)
     return false;
@@ -522,8 +527,8 @@ std::vector<std::array<double, 2>> Problem::reactions() const
 {
   std::vector<double> sum(2 * _domain.boundary_names.size(), 0);
   const auto force = _force.array();
-  const double turn
-      = _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
+  const double turn =
+      _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
     if (_holder[i] >= 0)
       sum[2 * _holder[i] + i % 3] += turn * force[i];

@@ -16,7 +16,7 @@ namespace mmale::lagrangian
 struct Failure
 {
   std::string cause;
-  std::int64_t cell = -1;              ///< number in the grid
+  std::int64_t cell = -1;               ///< number in the grid
   std::array<double, 2> place = {0, 0}; ///< its centre [m]
 };
 
@@ -100,18 +100,18 @@ private:
 
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;
-  std::vector<int> _holder;             ///< owned and ghost unknowns
-  std::vector<double> _increment;       ///< of held unknowns
-  std::vector<double> _guess;           ///< last step's increment
+  std::vector<int> _holder;       ///< owned and ghost unknowns
+  std::vector<double> _increment; ///< of held unknowns
+  std::vector<double> _guess;     ///< last step's increment
   double _guess_dt = 0;
   std::vector<Load> _loads;
   std::vector<std::vector<mesh::Facet>> _facets_of_cell; ///< loaded ones
   Constants _constants;
   std::array<double, 2> _gravity = {0, 0}; ///< at the end of the last step
 
-  const State* _state = nullptr;        ///< during a solve
-  dolfinx::la::Vector<double> _z;       ///< unknowns with units
-  dolfinx::la::Vector<double> _force;   ///< residual with units
+  const State* _state = nullptr;      ///< during a solve
+  dolfinx::la::Vector<double> _z;     ///< unknowns with units
+  dolfinx::la::Vector<double> _force; ///< residual with units
   std::vector<double> _coo;
   double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
   Failure _failure;

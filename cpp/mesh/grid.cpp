@@ -82,8 +82,7 @@ bool cut_right(scene::Diagonal diagonal, int i, int j)
 void distort(Grid& grid, std::size_t nx, std::size_t ny, double share)
 {
   std::mt19937_64 random(1);
-  const auto unit
-      = [&] { return 2.0 * (random() >> 11) / (1ull << 53) - 1.0; };
+  const auto unit = [&] { return 2.0 * (random() >> 11) / (1ull << 53) - 1.0; };
   const std::vector<double> x = grid.x;
   for (std::size_t j = 1; j < ny; ++j)
     for (std::size_t i = 1; i < nx; ++i)
@@ -93,8 +92,9 @@ void distort(Grid& grid, std::size_t nx, std::size_t ny, double share)
       for (int d = 0; d < 2; ++d)
       {
         const std::size_t step = d == 0 ? 1 : nx + 1;
-        const double edge = std::min(std::abs(x[2 * (n + step) + d] - x[2 * n + d]),
-                                     std::abs(x[2 * n + d] - x[2 * (n - step) + d]));
+        const double edge =
+            std::min(std::abs(x[2 * (n + step) + d] - x[2 * n + d]),
+                     std::abs(x[2 * n + d] - x[2 * (n - step) + d]));
         grid.x[2 * n + d] += shift[d] * edge;
       }
     }

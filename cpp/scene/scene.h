@@ -40,8 +40,8 @@ struct Grading
 {
   Point towards = {required, required}; ///< [m]
   double size = required;               ///< edge at the point [m]
-  double growth = 1.15;                 ///< ratio of neighbours, 1 < growth <= 2
-  double radius = 0;                    ///< uniform fine zone around it [m]
+  double growth = 1.15; ///< ratio of neighbours, 1 < growth <= 2
+  double radius = 0;    ///< uniform fine zone around it [m]
 };
 
 /// A rectangle [0, width] x [0, height], or a quadrilateral given by corners.
@@ -54,15 +54,17 @@ struct Mesh
   double width = required;  ///< rectangle only [m]
   double height = required; ///< rectangle only [m]
   Point origin = {0, 0};    ///< rectangle's lower left corner [m]
-  std::array<Point, 4> corners
-      = {{{required, required}, {required, required}, {required, required},
-          {required, required}}}; ///< quadrilateral only [m]
-  double size = 0;                ///< edge away from the grading [m]; or
+  std::array<Point, 4> corners = {
+      {{required, required},
+       {required, required},
+       {required, required},
+       {required, required}}};       ///< quadrilateral only [m]
+  double size = 0;                   ///< edge away from the grading [m]; or
   std::array<int, 2> cells = {0, 0}; ///< edges along x and along y
   Diagonal diagonal = Diagonal::right;
   std::optional<Grading> grading;
-  double distortion = 0;  ///< inner nodes moved at random by up to this share
-                          ///< of the local edge, 0 <= distortion < 0.4
+  double distortion = 0; ///< inner nodes moved at random by up to this share
+                         ///< of the local edge, 0 <= distortion < 0.4
 };
 
 /// A named part of a side: the facets whose midpoint lies between `from` and
@@ -124,10 +126,10 @@ struct Condition
 struct Stage
 {
   std::string name;
-  double duration = required;      ///< [s]
-  double step = required;          ///< first step [s]
-  double step_min = 0;             ///< floor [s]; 0: step / 1024
-  double step_max = 0;             ///< ceiling [s]; 0: step
+  double duration = required;                ///< [s]
+  double step = required;                    ///< first step [s]
+  double step_min = 0;                       ///< floor [s]; 0: step / 1024
+  double step_max = 0;                       ///< ceiling [s]; 0: step
   std::map<std::string, Condition> boundary; ///< by boundary name
   std::optional<std::array<TimeSeries, 2>> gravity; ///< [m/s^2]
 };
@@ -184,9 +186,9 @@ struct Remap
 /// A passive scalar per cell, carried by the remap.
 struct Tracer
 {
-  std::string shape;                  ///< "circle"
+  std::string shape;                   ///< "circle"
   Point centre = {required, required}; ///< [m]
-  double radius = required;           ///< [m]
+  double radius = required;            ///< [m]
   double inside = 1;
   double outside = 0; ///< also what flows in through open boundaries
 };
@@ -205,9 +207,9 @@ struct Motion
 /// beside it ("effective").
 struct Curve
 {
-  std::string quantity; ///< displacement_x|y, reaction_x|y, pressure,
-                        ///< tracer_max, tracer_min, tracer_total
-  std::string boundary; ///< a named boundary (means over it), or
+  std::string quantity;       ///< displacement_x|y, reaction_x|y, pressure,
+                              ///< tracer_max, tracer_min, tracer_total
+  std::string boundary;       ///< a named boundary (means over it), or
   std::optional<Point> point; ///< a material point given at the start [m]
   std::string tracer;         ///< for tracer_*
   double divide_by = 1;
@@ -226,7 +228,7 @@ struct Picture
 {
   std::string field; ///< name in the field files, or "" for the mesh alone
   bool mesh = true;
-  bool arrows = false; ///< velocity (displacement increment over step)
+  bool arrows = false;  ///< velocity (displacement increment over step)
   double at = infinity; ///< drawn at this time of the run [s]; default the end
 };
 

@@ -30,8 +30,8 @@ concept OneOf = (std::same_as<T, U> or ...);
 
 template <class T>
 concept Table =
-    OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Stage, Solver, Remap,
-          Tracer, Motion, Curve, Line, Picture, Output, Scene>;
+    OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Stage, Solver,
+          Remap, Tracer, Motion, Curve, Line, Picture, Output, Scene>;
 
 template <class T>
 concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Tangent, RemapMode>;
@@ -165,8 +165,11 @@ template <class V>
 void keys(V& v, Wall& w)
 {
   v({"x", "m", "Where the upright wall stands."}, w.x);
-  v({"grip", "", "Smooth: slides and lifts off; rough: holds what it touches.",
-     {}, grips},
+  v({"grip",
+     "",
+     "Smooth: slides and lifts off; rough: holds what it touches.",
+     {},
+     grips},
     w.grip);
   v({"velocity_y", "m/s", "Velocity of a rough wall along y."}, w.velocity_y);
 }
