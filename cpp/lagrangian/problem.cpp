@@ -249,6 +249,12 @@ void Problem::assemble_residual(double* r)
   }
   assemble_loads(force);
   _force.scatter_rev(std::plus<double>());
+  if (not _contact->empty() and _contact_changes < max_contact_changes
+      and _contact->update(_state->x, z, force, _stress))
+  {
+    ++_contact_changes;
+    hold();
+  }
 
   double norm[3] = {0, 0, 0};
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
@@ -426,6 +432,8 @@ void Problem::name_worst(NewtonLog& log)
 void Problem::prepare(const State& state, double t0, double t1)
 {
   _state = &state;
+  _t0 = t0;
+  _t1 = t1;
   _loads = _conditions->loads(t1);
   const auto g = _conditions->gravity(t1);
   _constants.dt = t1 - t0;
@@ -444,23 +452,21 @@ void Problem::prepare(const State& state, double t0, double t1)
 }
 
 /// What is held in this step: the stage's conditions, and contact.
-void Problem::hold(double t0, double t1)
+void Problem::hold()
 {
-  _conditions->increments(t0, t1, _increment);
+  _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
 }
 
 /// First iterate of Newton.
-void Problem::start(Start from, double dt)
+void Problem::start(Start from)
 {
-  const auto z = _z.array();
+  const double dt = _t1 - _t0;
   PetscScalar* x = nullptr;
   VecGetArray(_x, &x);
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
-    if (from == Start::here)
-      x[i] = i % 3 == 2 ? z[i] * _length / _stress : z[i];
-    else if (i % 3 == 2)
+    if (i % 3 == 2)
       x[i] = _state->p[i / 3] * _length / _stress;
     else if (from == Start::rest)
       x[i] = 0;
@@ -486,20 +492,19 @@ bool Problem::newton(NewtonLog& log)
   return reason > 0;
 }
 
-/// Newton, and again while nodes come to or leave a wall.
-bool Problem::equilibrium(Start from, double t0, double t1, NewtonLog& log)
+/// Newton; the set of nodes in contact settles on the way. A set that goes on
+/// changing is frozen, and has to prove itself afterwards.
+bool Problem::equilibrium(Start from, NewtonLog& log)
 {
-  _contact->begin_step(_state->x, t0, t1);
-  for (int round = 0; round < max_contact_rounds; ++round)
-  {
-    hold(t0, t1);
-    start(round == 0 ? from : Start::here, t1 - t0);
-    if (not newton(log))
-      return false;
-    if (_contact->empty()
-        or not _contact->update(_state->x, _z.array(), _force.array()))
-      return true;
-  }
+  _contact->begin_step(_state->x, _t0, _t1);
+  _contact_changes = 0;
+  hold();
+  start(from);
+  if (not newton(log))
+    return false;
+  if (_contact->empty()
+      or not _contact->update(_state->x, _z.array(), _force.array(), _stress))
+    return true;
   agree_on_failure(0, "contact with a wall did not settle");
   log.failure = _failure;
   return false;
@@ -509,9 +514,8 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
 {
   const auto scope = _clock.scope("1 lagrangian");
   prepare(state, t0, t1);
-  const bool solved =
-      (not _guess.empty() and equilibrium(Start::guess, t0, t1, log))
-      or equilibrium(Start::rest, t0, t1, log);
+  const bool solved = (not _guess.empty() and equilibrium(Start::guess, log))
+                      or equilibrium(Start::rest, log);
   _guess.clear();
   if (not solved)
     return false;

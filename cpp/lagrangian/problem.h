@@ -79,16 +79,15 @@ private:
   enum class Start
   {
     guess, ///< the last step's motion, scaled
-    rest,  ///< no motion
-    here   ///< the last solution
+    rest   ///< no motion
   };
-  /// Changes of the contact set in a step. More: patience with flutter.
-  static constexpr int max_contact_rounds = 10;
+  /// Changes of the contact set in a step. Doubled: patience with flutter.
+  static constexpr int max_contact_changes = 10;
   void prepare(const State& state, double t0, double t1);
-  void hold(double t0, double t1);
-  void start(Start from, double dt);
+  void hold();
+  void start(Start from);
   bool newton(NewtonLog& log);
-  bool equilibrium(Start from, double t0, double t1, NewtonLog& log);
+  bool equilibrium(Start from, NewtonLog& log);
 
   const mesh::Domain& _domain;
   scene::Symmetry _symmetry;
@@ -100,6 +99,8 @@ private:
 
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;
+  int _contact_changes = 0;       ///< in this step
+  double _t0 = 0, _t1 = 0;        ///< of this step
   std::vector<int> _holder;       ///< owned and ghost unknowns
   std::vector<double> _increment; ///< of held unknowns
   std::vector<double> _guess;     ///< last step's increment
