@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dolfinx/common/MPI.h>
+#include <iostream>
 #include <spdlog/spdlog.h>
 #include <sstream>
 
@@ -227,9 +228,8 @@ void Run::finish()
   if (not _root)
     return;
   if (not _options.quiet)
-    spdlog::info("\n{}{}",
-                 output::table(_summary.timers, _summary.wall_seconds),
-                 output::table(_summary.checks));
+    std::cout << output::table(_summary.timers, _summary.wall_seconds)
+              << output::table(_summary.checks) << std::flush;
   const auto trouble = output::draw(
       _options.results, output::pictures(_scene, _monitor.names(),
                                          _references.entries, _fields.info()));

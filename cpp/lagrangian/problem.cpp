@@ -118,6 +118,8 @@ void Problem::create_solver()
   SNESGetKSP(_snes, &ksp);
   KSPSetType(ksp, KSPPREONLY);
   KSPGetPC(ksp, &pc);
+  KSPSetPreSolve(ksp, before_solve, this);
+  KSPSetPostSolve(ksp, after_solve, this);
   PCSetType(pc, PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
   if (not _options.petsc.empty())
@@ -323,6 +325,22 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
     diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
   PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::before_solve(KSP, Vec, Vec, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  self._solving.reset(
+      new output::Clock::Scope(self._clock.scope("1b factorise and solve")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::after_solve(KSP, Vec, Vec, void* context)
+{
+  PetscFunctionBeginUser;
+  static_cast<Problem*>(context)->_solving.reset();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -6,6 +6,7 @@
 #include "output/clock.h"
 #include <array>
 #include <dolfinx/la/Vector.h>
+#include <memory>
 #include <petscsnes.h>
 #include <string>
 
@@ -62,6 +63,8 @@ public:
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);
   static PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*);
+  static PetscErrorCode before_solve(KSP, Vec, Vec, void*);
+  static PetscErrorCode after_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
   static PetscErrorCode converged(SNES, PetscInt, PetscReal, PetscReal,
                                   PetscReal, SNESConvergedReason*, void*);
@@ -117,6 +120,7 @@ private:
   double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
+  std::unique_ptr<output::Clock::Scope> _solving; ///< while KSP works
 
   SNES _snes = nullptr;
   Mat _J = nullptr;
