@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "environment.h"
 #include "libraries.h"
+#include "output/pictures.h"
 #include "run.h"
 #include "scene/describe.h"
 #include "scene/reader.h"
@@ -50,6 +51,14 @@ struct Job
 {
   scene::Member member;
   scene::Scene scene;
+};
+
+/// What a run is checked against, and the scene that it is known of: changed
+/// scenes have other results.
+struct Reference
+{
+  std::string file;  ///< reference.toml; empty without one
+  std::string scene; ///< as described
 };
 
 /// Text that only rank 0 knows, on all ranks.
@@ -140,10 +149,21 @@ Exit run_one(MPI_Comm comm, const Job& job, const RunOptions& options,
   }
 }
 
+/// Pictures with all runs of a sweep; without them the sweep is no failure.
+void draw_sweep(const std::vector<Job>& jobs, const fs::path& results)
+{
+  std::vector<fs::path> members;
+  for (const Job& job : jobs)
+    members.push_back(results / job.member.folder);
+  if (const auto trouble = output::draw_sweep(results, members);
+      not trouble.empty())
+    std::cerr << "mmale: no pictures of the sweep: " << trouble << std::endl;
+}
+
 /// All runs in turn; the table grows with each, so an end midway loses none.
 Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
              const Arguments& given, const fs::path& results,
-             const std::string& reference)
+             const Reference& reference)
 {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -156,9 +176,11 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
                 << job.member.folder << std::endl;
     scene::Row row = {job.member.swept, "", {}};
     const fs::path folder = job.member.folder;
+    const std::string scene = scene::describe(job.scene);
     ends.insert(run_one(comm, job,
-                        {folder.empty() ? results : results / folder, reference,
-                         scene::describe(job.scene), given.quiet},
+                        {folder.empty() ? results : results / folder,
+                         scene == reference.scene ? reference.file : "", scene,
+                         given.quiet},
                         row));
     rows.push_back(std::move(row));
     if (rank == 0 and jobs.size() > 1
@@ -167,6 +189,8 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
       throw std::runtime_error("cannot write "
                                + (results / "sweep.csv").string());
   }
+  if (rank == 0 and jobs.size() > 1)
+    draw_sweep(jobs, results);
   for (Exit end : {failure, stopped, checks_fail})
     if (ends.contains(end))
       return end;
@@ -199,7 +223,7 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
     if (error)
       unwritable = "cannot be made: " + error.message();
     const fs::path beside = given.scene.parent_path() / "reference.toml";
-    if (given.overrides.empty() and fs::exists(beside, error))
+    if (fs::exists(beside, error))
       reference = beside.string();
   }
   unwritable = broadcast(comm, unwritable);
@@ -211,7 +235,13 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
       print(complaints);
     return mistake;
   }
-  return run_all(comm, jobs, given, results, broadcast(comm, reference));
+  // A scene that only its changes make good has no results to compare with.
+  const scene::Reading as_written =
+      scene::read(file.text, given.scene.string(), {}, libraries());
+  return run_all(
+      comm, jobs, given, results,
+      {broadcast(comm, reference),
+       as_written.complaints.empty() ? scene::describe(as_written.scene) : ""});
 }
 
 /// `mmale check`: the scene as understood, or the complaints.

@@ -122,8 +122,9 @@ std::vector<double> graded_line(double length, double size, double towards,
   return line;
 }
 
-Grid make_grid(const scene::Mesh& mesh)
+Grid make_grid(const scene::Mesh& coarse)
 {
+  const scene::Mesh mesh = coarse.refined();
   const auto line = lines(mesh);
   const auto corner = corners(mesh);
   const std::size_t nx = line[0].size() - 1, ny = line[1].size() - 1;

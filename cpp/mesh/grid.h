@@ -30,6 +30,6 @@ std::vector<double> graded_line(double length, double size, double towards,
                                 double finest, double growth, double radius);
 
 /// The built-in mesh of a scene: a mapped rectangle of quadrilaterals, each cut
-/// in two.
+/// in two, after `refine`.
 Grid make_grid(const scene::Mesh& mesh);
 } // namespace mmale::mesh

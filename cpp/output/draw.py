@@ -4,6 +4,8 @@
 
     draw.py run FOLDER
         all pictures that FOLDER/pictures.json asks for
+    draw.py sweep FOLDER RUN RUN ...
+        each chart and each picture of a field with all the runs of a sweep
     draw.py compare FOLDER FOLDER ... -o PICTURE.png [--x NAME] [--y NAME]
         one curve of several runs in one chart, with the reference line
 
@@ -17,8 +19,8 @@ import sys
 from pathlib import Path
 
 import picture
-from draw_charts import column, draw_chart, draw_together
-from draw_fields import draw_field
+from draw_charts import column, draw_chart, draw_panels, draw_together
+from draw_fields import draw_field, draw_fields
 from picture import Trouble
 from read_run import read_curves, read_plan
 
@@ -73,6 +75,50 @@ def run_labels(folders):
     return [", ".join(f"{k} = {show(s[k])}" for k in differ if k in s) for s in scenes]
 
 
+def draw_runs(plan, chart, runs, file):
+    """A chart with the curves of several runs.
+
+    runs: dict label -> curves of a run"""
+    names = [n for n in chart["y"] if all(n in curves for curves in runs.values())]
+    if not names:
+        raise Trouble(f"no run has a curve of {', '.join(chart['y'])}")
+    if chart.get("layout") == "panels":
+        draw_panels(plan["title"], chart["x"], runs, names, file)
+        return
+    series = []
+    for label, curves in runs.items():
+        for name in names:
+            x, y = column(curves, chart["x"], file), column(curves, name, file)
+            full = label if len(names) == 1 else f"{label}, {name}"
+            series.append((x, y, name, full))
+    draw_together(plan, chart, series, file)
+
+
+def sweep(folder, members):
+    """All pictures of a sweep: what its runs have in common, drawn together."""
+    # A run that failed at once has drawn nothing.
+    members = [m for m in members if (m / "pictures.json").exists()]
+    if not members:
+        raise Trouble(f"{folder}: no run to draw")
+    plan = read_plan(members[0])
+    labels = run_labels(members)
+    runs = {label: read_curves(m) for label, m in zip(labels, members)}
+    failed = []
+    for chart in plan["charts"]:
+        if chart.get("layout") != "diagnostics":
+            try:
+                draw_runs(plan, chart, runs, folder / chart["file"])
+            except Trouble as trouble:
+                failed.append(f"{chart['file']}: {trouble}")
+    for what in plan["fields"]:
+        try:
+            draw_fields(dict(zip(labels, members)), plan, what, folder / what["file"])
+        except Trouble as trouble:
+            failed.append(f"{what['file']}: {trouble}")
+    if failed:
+        raise Trouble("; ".join(failed))
+
+
 def compare(folders, output, x_name=None, y_name=None):
     """One curve of several runs in one chart."""
     plan = read_plan(folders[0])
@@ -82,17 +128,20 @@ def compare(folders, output, x_name=None, y_name=None):
         raise Trouble(f"{folders[0]}: no chart to go by; give --x and --y")
     x_name = x_name or chart["x"]
     y_name = y_name or chart["y"][0]
-    references = []
     for c in plan["charts"]:
         if c["x"] == x_name and c["y"][0] == y_name:
-            references = c["references"]
-    series = []
-    for folder, label in zip(folders, run_labels(folders)):
-        curves = read_curves(folder)
-        where = folder / "curves.csv"
-        x, y = column(curves, x_name, where), column(curves, y_name, where)
-        series.append((x, y, y_name, label))
-    draw_together(plan["title"], x_name, series, references, output)
+            chart = {**c, "y": [y_name], "layout": "together"}
+            break
+    else:
+        chart = {"x": x_name, "y": [y_name], "references": []}
+    runs = {
+        label: read_curves(folder)
+        for label, folder in zip(run_labels(folders), folders)
+    }
+    for folder, curves in zip(folders, runs.values()):
+        column(curves, x_name, folder / "curves.csv")
+        column(curves, y_name, folder / "curves.csv")
+    draw_runs(plan, chart, runs, output)
 
 
 def main(arguments=None):
@@ -105,11 +154,16 @@ def main(arguments=None):
     many.add_argument("-o", "--output", type=Path, required=True)
     many.add_argument("--x", help="name of the abscissa")
     many.add_argument("--y", help="name of the curve")
+    all_of = verbs.add_parser("sweep", help="all pictures of a sweep")
+    all_of.add_argument("folder", type=Path, help="where to write them")
+    all_of.add_argument("runs", type=Path, nargs="+")
     options = parser.parse_args(arguments)
     with picture.plt.rc_context(picture.STYLE):
         try:
             if options.verb == "run":
                 run(options.folder)
+            elif options.verb == "sweep":
+                sweep(options.folder, options.runs)
             else:
                 compare(options.folders, options.output, options.x, options.y)
         except Trouble as trouble:

@@ -86,10 +86,11 @@ def close_to(references, series):
     return lowest - room, highest + room
 
 
-def draw_together(title, x_name, series, references, file):
+def draw_together(plan, chart, series, file):
     """Curves in one chart, and their plateau larger where there is one.
 
     series: list of (x, y, name, label)."""
+    references = chart["references"]
     near = close_to(references, series)
     figure, axes = plt.subplots(
         1,
@@ -103,42 +104,60 @@ def draw_together(title, x_name, series, references, file):
             plot(ax, x, y, i, label)
         dress(ax, [s[1] for s in series], references)
         draw_references(ax, references)
-        ax.set_xlabel(symbol(x_name))
-    axes[0, 0].set_ylabel(symbol(series[0][2]))
+        ax.set_xlabel(chart.get("x_label") or symbol(chart["x"]))
+    axes[0, 0].set_ylabel(chart.get("y_label") or symbol(series[0][2]))
     if near:
         axes[0, 1].set_ylim(*near)
         axes[0, 1].set_title("the same, near the reference", fontsize=9, color=INK)
     if len(series) + len(references) > 1:
         axes[0, 0].legend(fontsize=9 if len(series) <= 8 else 7)
-    axes[0, 0].set_title(title)
+    axes[0, 0].set_title(chart.get("title") or plan["title"])
     save(figure, file)
 
 
-def draw_panels(title, x_name, curves, names, file):
-    """One panel a curve: they need not have a unit in common."""
-    columns = 1 if len(names) <= 3 else 2
+def draw_panels(title, x_name, runs, names, file, compact=False):
+    """One panel a curve: they need not have a unit in common.
+
+    runs: dict label -> curves of a run"""
+    columns = (1 if len(names) <= 3 else 2) if not compact else min(len(names), 4)
     rows = -(-len(names) // columns)
+    breadth, height = (2.9, 1.5) if compact else (6.2 if columns == 1 else 4.4, 1.9)
     figure, axes = plt.subplots(
         rows,
         columns,
         sharex=True,
         squeeze=False,
-        figsize=(4.4 * columns if columns > 1 else 6.2, max(1.9 * rows, 3.0) + 0.4),
+        figsize=(max(breadth * columns, 6.2), max(height * rows, 3.0) + 0.4),
         layout="constrained",
     )
     for i, (ax, name) in enumerate(zip(axes.flat, names)):
-        plot(ax, curves[x_name], column(curves, name, file.name), 0)
-        dress(ax, [curves[name]], [])
-        ax.set_ylabel(symbol(name))
+        for k, (label, curves) in enumerate(runs.items()):
+            x = column(curves, x_name, "curves.csv")
+            plot(ax, x, column(curves, name, "curves.csv"), k, label)
+        dress(ax, [curves[name] for curves in runs.values()], [])
+        if compact:
+            ax.set_title(symbol(name), fontsize=8)
+            ax.tick_params(labelsize=7)
+            ax.yaxis.get_offset_text().set_fontsize(7)
+        else:
+            ax.set_ylabel(symbol(name))
         ax.ticklabel_format(axis="y", scilimits=(-3, 4), useMathText=True)
         if i + columns >= len(names):
-            ax.set_xlabel(symbol(x_name))
+            ax.set_xlabel(symbol(x_name), fontsize=8 if compact else None)
             ax.tick_params(labelbottom=True)
-    if len(names) < rows * columns:
-        axes.flat[-1].set_visible(False)
-    figure.align_ylabels()
+    for ax in axes.flat[len(names) :]:
+        ax.set_visible(False)
+    if len(runs) > 1:
+        axes[0, 0].legend(fontsize=8)
+    if not compact:
+        figure.align_ylabels()
     figure.suptitle(title, fontsize=11, x=0.01, ha="left")
     save(figure, file)
+
+
+def telling(curves, names):
+    """Those of the names whose curve is somewhere neither NaN nor 0."""
+    return [n for n in names if n in curves and np.any(np.nan_to_num(curves[n]))]
 
 
 def draw_chart(folder, plan, chart):
@@ -147,12 +166,18 @@ def draw_chart(folder, plan, chart):
     if not len(x):
         raise Trouble(f"{plan['curves']}: no row yet")
     file = folder / chart["file"]
-    kin = all(name.startswith(chart["y"][0]) for name in chart["y"])
-    if not kin and not chart["references"]:
-        draw_panels(plan["title"], chart["x"], curves, chart["y"], file)
+    layout = chart.get("layout", "together")
+    if layout == "diagnostics":
+        names = telling(curves, chart["y"])
+        if names:
+            title = f"{plan['title']}: diagnostics"
+            draw_panels(title, chart["x"], {"": curves}, names, file, True)
+        return
+    if layout == "panels":
+        draw_panels(plan["title"], chart["x"], {"": curves}, chart["y"], file)
         return
     series = [
         (x, column(curves, name, plan["curves"]), name, symbol(name))
         for name in chart["y"]
     ]
-    draw_together(plan["title"], chart["x"], series, chart["references"], file)
+    draw_together(plan, chart, series, file)

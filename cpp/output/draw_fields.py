@@ -155,44 +155,72 @@ def draw_mesh(ax, grid, faint):
     )
 
 
-def draw_field(folder, plan, picture):
-    """One picture of a field on the mesh as it stood."""
-    asked = picture["time"]
-    time, file = nearest_output(folder / plan["field_file"], asked)
-    grid = read_grid(file, time)
-    size = np.ptp(grid.points, axis=0)
-    height = min(6.0, 5.0 * size[1] / size[0])
-    figure, ax = plt.subplots(figsize=(max(height * size[0] / size[1], 2.0), height))
-    tri = Triangulation(*grid.points.T, grid.cells)
+def shown_values(grid, picture):
+    """Values of a picture's field, whether nodal, and its label; None, False,
+    "" for the mesh alone."""
+    if not picture["field"]:
+        return None, False, ""
+    values, nodal, label = scalar(grid, picture["field"])
+    unit = picture.get("unit", "")
+    return values, nodal, f"{label} [{unit}]" if unit not in ("", "-", "1") else label
 
-    field = picture["field"]
-    if field:
-        values, nodal, label = scalar(grid, field)
-        low, high, extend = colour_range(values)
-        colours = {"cmap": COLOUR_MAP, "vmin": low, "vmax": high, "zorder": 1}
-        if nodal:
-            shown = ax.tripcolor(tri, values, shading="gouraud", **colours)
-        else:
-            shown = ax.tripcolor(
-                tri, facecolors=values, edgecolors="face", linewidth=0.4, **colours
-            )
-        # As tall as the body, at its side, whatever its shape.
-        side = ax.inset_axes([1 + 0.04 * height / figure.get_figwidth(), 0, 0.04, 1])
-        bar = figure.colorbar(shown, cax=side, extend=extend, extendfrac=0.04)
-        bar.outline.set_linewidth(0.4)
-        unit = picture.get("unit", "")
-        bar.set_label(f"{label} [{unit}]" if unit not in ("", "-", "1") else label)
-        if extend != "neither":
-            side.set_xlabel(f"max {values.max():.3g}", fontsize=7)
-    else:
+
+def draw_body(ax, grid, values, nodal, limits):
+    """Field or plain body in the plane; returns what a colour bar needs."""
+    tri = Triangulation(*grid.points.T, grid.cells)
+    if values is None:
         ax.tripcolor(
             tri,
             facecolors=np.zeros(len(grid.cells)),
             cmap=ListedColormap(["#e8edf2"]),
             zorder=1,
         )
+        return None
+    colours = {"cmap": COLOUR_MAP, "vmin": limits[0], "vmax": limits[1], "zorder": 1}
+    if nodal:
+        return ax.tripcolor(tri, values, shading="gouraud", **colours)
+    return ax.tripcolor(
+        tri, facecolors=values, edgecolors="face", linewidth=0.4, **colours
+    )
+
+
+def at_nodes(grid, values):
+    """Cell values as means around the nodes, weighted by area."""
+    a, b, c = (grid.points[grid.cells[:, k]] for k in range(3))
+    weight = np.repeat(np.abs(cross(b - a, c - a)), 3)
+    nodes = grid.cells.ravel()
+    total = np.bincount(nodes, weight * np.repeat(values, 3), len(grid.points))
+    return total / np.bincount(nodes, weight, len(grid.points))
+
+
+def draw_surface(ax, grid, values, nodal, limits):
+    """A field as height over the plane, in axes of three dimensions."""
+    heights = values if nodal else at_nodes(grid, values)
+    ax.plot_trisurf(
+        *grid.points.T,
+        heights,
+        triangles=grid.cells,
+        cmap=COLOUR_MAP,
+        vmin=limits[0],
+        vmax=limits[1],
+        linewidth=0.1,
+        edgecolor="#00000040",
+        antialiased=True,
+    )
+    ax.set_zlim(*limits)
+    ax.view_init(elev=28, azim=-60)
+    ax.set_box_aspect((1, 1, 0.7), zoom=0.92)
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_pane_color((1, 1, 1, 0))
+        axis.line.set_linewidth(0.6)
+    ax.tick_params(labelsize=7, pad=-1)
+
+
+def dress_plane(ax, grid, picture, plan, over_colours):
+    """Mesh, border, axes and arrows of a picture in the plane."""
+    size = np.ptp(grid.points, axis=0)
     if picture["mesh"]:
-        draw_mesh(ax, grid, faint=bool(field))
+        draw_mesh(ax, grid, faint=over_colours)
     ax.add_collection(
         LineCollection(
             grid.points[border(grid.cells)], colors=INK, linewidths=0.8, zorder=3
@@ -206,11 +234,91 @@ def draw_field(folder, plan, picture):
     ax.set_ylabel("z [m]" if plan["axisymmetric"] else "y [m]")
     ax.locator_params(nbins=6)
     if picture["arrows"]:
-        draw_arrows(ax, grid, picture["arrows"], over_colours=bool(field))
-    title = f"t = {time:.4g} s"
-    if asked is not None and abs(asked - time) > 1e-6 * max(abs(asked), abs(time)):
-        title += f" (nearest output to {asked:.4g} s)"
+        draw_arrows(ax, grid, picture["arrows"], over_colours)
+
+
+def add_bar(figure, ax, shown, extend, label, highest, height):
+    """A colour bar as tall as the body, at its side, whatever its shape."""
+    side = ax.inset_axes([1 + 0.04 * height / figure.get_figwidth(), 0, 0.04, 1])
+    bar = figure.colorbar(shown, cax=side, extend=extend, extendfrac=0.04)
+    bar.outline.set_linewidth(0.4)
+    bar.set_label(label)
+    if extend != "neither":
+        side.set_xlabel(f"max {highest:.3g}", fontsize=7)
+
+
+def draw_grids(grids, plan, picture, notes, file):
+    """One picture with a part a grid, all in the same colours.
+
+    notes: a line of words for each grid."""
+    fields = [shown_values(grid, picture) for grid in grids]
+    _, nodal, label = fields[0]
+    limits, extend, highest = None, "neither", 0
+    if label:
+        together = np.concatenate([values for values, _, _ in fields])
+        *limits, extend = colour_range(together)
+        highest = together.max()
+    solid = picture.get("surface", False)
+    size = np.ptp(grids[0].points, axis=0)
+    height = min(6.0, 5.0 * size[1] / size[0]) if len(grids) == 1 else 4.2
+    breadth = max(height * size[0] / size[1], 2.0) + 0.8 * (len(grids) > 1)
+    figure, axes = plt.subplots(
+        1,
+        len(grids),
+        squeeze=False,
+        figsize=((4.0 if solid else breadth) * len(grids), 4.0 if solid else height),
+        subplot_kw={"projection": "3d"} if solid else {},
+    )
+    for ax, grid, (values, nodal, _), note in zip(axes.flat, grids, fields, notes):
+        if solid:
+            draw_surface(ax, grid, values, nodal, limits)
+            note += f"\n{label}: {values.min():.3g} to {values.max():.4g}"
+            ax.set_title(note, fontsize=10, loc="center")
+            continue
+        shown = draw_body(ax, grid, values, nodal, limits)
+        if shown is not None and ax is axes.flat[-1]:
+            add_bar(figure, ax, shown, extend, label, highest, height)
+        dress_plane(ax, grid, picture, plan, over_colours=bool(label))
+        ax.set_title(note, fontsize=11 if len(grids) == 1 else 9)
+    if len(grids) > 1:
+        figure.suptitle(plan["title"], fontsize=11, x=0.08, y=1.0, ha="left")
+        figure.subplots_adjust(wspace=0.02 if solid else 0.3)
+    save(figure, file)
+
+
+def read_at(folder, plan, time):
+    return read_grid(*nearest_output(folder / plan["field_file"], time)[::-1])
+
+
+def when(grid, picture):
+    """What is shown, in words: its time and the arrows."""
+    asked, words = picture["time"], f"t = {grid.time:.4g} s"
+    if asked is not None and abs(asked - grid.time) > 1e-6 * max(asked, grid.time):
+        words += f" (nearest output to {asked:.4g} s)"
     if picture["arrows"]:
-        title += f", arrows: {picture['arrows'].replace('_', ' ')}"
-    ax.set_title(f"{plan['title']}\n{title}" if plan["title"] else title)
-    save(figure, folder / picture["file"])
+        words += f", arrows: {picture['arrows'].replace('_', ' ')}"
+    return words
+
+
+def draw_field(folder, plan, picture):
+    """One picture of a field on the mesh as it stood."""
+    grid = read_at(folder, plan, picture["time"])
+    grids, notes = [grid], [when(grid, picture)]
+    if picture.get("start"):
+        grids.insert(0, read_at(folder, plan, 0.0))
+        notes.insert(0, "start")
+    elif plan["title"]:
+        notes = [f"{plan['title']}\n{notes[0]}"]
+    draw_grids(grids, plan, picture, notes, folder / picture["file"])
+
+
+def draw_fields(runs, plan, picture, file):
+    """One picture of a field with a part for each of several runs.
+
+    runs: dict label -> folder"""
+    grids = [read_at(folder, plan, picture["time"]) for folder in runs.values()]
+    notes = [f"{label}\n{when(g, picture)}" for label, g in zip(runs, grids)]
+    if picture.get("start"):
+        grids.insert(0, read_at(next(iter(runs.values())), plan, 0.0))
+        notes.insert(0, "start")
+    draw_grids(grids, plan, picture, notes, file)

@@ -83,22 +83,73 @@ std::string last_line(const std::string& text)
 
 ordered_json json(const Chart& chart)
 {
+  constexpr std::array layouts = {"together", "panels", "diagnostics"};
   ordered_json lines = ordered_json::array();
   for (const ReferenceLine& line : chart.references)
     lines.push_back({{"value", line.value}, {"label", line.label}});
   return {{"file", chart.name + ".png"},
+          {"layout", layouts[static_cast<std::size_t>(chart.layout)]},
+          {"title", chart.title},
           {"x", chart.x},
+          {"x_label", chart.x_label},
           {"y", chart.y},
+          {"y_label", chart.y_label},
           {"references", lines}};
+}
+
+/// Run draw.py with these words after its name; empty, or why it failed.
+std::string run_draw(std::vector<std::string> words)
+{
+  const std::filesystem::path program = draw_program();
+  std::error_code unreadable;
+  if (not std::filesystem::exists(program, unreadable))
+    return program.string() + " is not there; MMALE_DRAW may name another";
+  words.insert(words.begin(), {"python3", program.string()});
+  std::string said;
+  const std::string failed = run(words, said);
+  if (failed.empty())
+    return {};
+  const std::string reason = last_line(said);
+  return failed + (reason.empty() ? "" : ": " + reason);
+}
+
+/// The scene's charts as it names them.
+std::vector<Chart> own_charts(const scene::Scene& scene)
+{
+  std::vector<Chart> out;
+  for (const auto& [name, c] : scene.output.chart)
+    out.push_back({.name = name,
+                   .x = c.x,
+                   .y = c.y,
+                   .references = c.references,
+                   .title = c.title,
+                   .x_label = c.x_label,
+                   .y_label = c.y_label});
+  return out;
+}
+
+/// Columns that no chart shows.
+std::vector<std::string> left_over(std::span<const std::string> columns,
+                                   std::span<const Chart> charts)
+{
+  std::vector<std::string> out;
+  for (const std::string& column : columns)
+    if (std::ranges::none_of(charts,
+                             [&](const Chart& c)
+                             {
+                               return c.x == column
+                                      or std::ranges::find(c.y, column)
+                                             != c.y.end();
+                             }))
+      out.push_back(column);
+  return out;
 }
 } // namespace
 
 std::vector<Chart> charts(std::span<const std::string> curves,
-                          std::span<const Reference> references,
-                          const std::string& time)
+                          std::span<const Reference> references)
 {
   std::vector<Chart> out;
-  std::vector<std::string> shown = {time};
   for (const Reference& r : references)
   {
     if (r.curve.empty() or r.take != Reference::Take::at)
@@ -109,7 +160,6 @@ std::vector<Chart> charts(std::span<const std::string> curves,
     {
       out.push_back({.name = name, .x = r.at.first, .y = {r.curve}});
       chart = out.end() - 1;
-      shown.insert(shown.end(), {r.curve, r.at.first});
     }
     if (r.relation == Reference::Relation::near
         and std::ranges::find(chart->references, r.reference,
@@ -119,33 +169,43 @@ std::vector<Chart> charts(std::span<const std::string> curves,
           {r.reference, r.source.empty() ? r.name : r.source});
   }
   // A variety of a charted curve (p_sy_eff of p_sy) belongs beside it.
-  for (const std::string& curve : curves)
+  for (const std::string& curve : left_over(curves, out))
     for (Chart& chart : out)
-      if (curve.starts_with(chart.y.front() + "_")
-          and std::ranges::find(shown, curve) == shown.end())
+      if (curve.starts_with(chart.y.front() + "_"))
       {
         chart.y.push_back(curve);
-        shown.push_back(curve);
+        break;
       }
-  Chart rest{.name = "curves", .x = time};
-  for (const std::string& curve : curves)
-    if (std::ranges::find(shown, curve) == shown.end())
-      rest.y.push_back(curve);
-  if (not rest.y.empty())
-    out.push_back(std::move(rest));
   return out;
 }
 
 Pictures pictures(const scene::Scene& scene,
-                  std::span<const std::string> curves,
+                  std::span<const std::string> columns,
                   std::span<const Reference> references,
                   const std::map<std::string, FieldInfo>& info)
 {
-  return {.title = scene.title,
-          .charts = charts(curves, references),
-          .fields = scene.output.picture,
-          .info = info,
-          .axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric};
+  std::vector<std::string> own, others;
+  for (const std::string& column : columns)
+    if (column != "time")
+      (scene.output.curve.contains(column) ? own : others).push_back(column);
+  Pictures out{.title = scene.title,
+               .charts = own_charts(scene),
+               .fields = scene.output.picture,
+               .info = info,
+               .axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric};
+  if (out.charts.empty())
+    out.charts = charts(own, references);
+  if (auto rest = left_over(own, out.charts); not rest.empty())
+    out.charts.push_back({.name = "curves",
+                          .x = "time",
+                          .y = std::move(rest),
+                          .layout = Layout::panels});
+  if (not others.empty())
+    out.charts.push_back({.name = "diagnostics",
+                          .x = "time",
+                          .y = std::move(others),
+                          .layout = Layout::diagnostics});
+  return out;
 }
 
 std::string to_json(const Pictures& p)
@@ -162,6 +222,8 @@ std::string to_json(const Pictures& p)
          {"field", picture.field},
          {"unit", info == p.info.end() ? "" : info->second.unit},
          {"mesh", picture.mesh},
+         {"surface", picture.surface},
+         {"start", picture.start},
          {"arrows",
           picture.arrows ? ordered_json(p.arrows) : ordered_json(nullptr)},
          {"time", std::isfinite(picture.at) ? ordered_json(picture.at)
@@ -191,16 +253,15 @@ std::string draw(const std::filesystem::path& folder, const Pictures& pictures)
   {
     return error.what();
   }
-  const std::filesystem::path program = draw_program();
-  std::error_code unreadable;
-  if (not std::filesystem::exists(program, unreadable))
-    return program.string() + " is not there; MMALE_DRAW may name another";
-  std::string said;
-  const std::string failed =
-      run({"python3", program.string(), "run", folder.string()}, said);
-  if (failed.empty())
-    return {};
-  const std::string reason = last_line(said);
-  return failed + (reason.empty() ? "" : ": " + reason);
+  return run_draw({"run", folder.string()});
+}
+
+std::string draw_sweep(const std::filesystem::path& folder,
+                       std::span<const std::filesystem::path> members)
+{
+  std::vector<std::string> words = {"sweep", folder.string()};
+  for (const auto& member : members)
+    words.push_back(member.string());
+  return run_draw(std::move(words));
 }
 } // namespace mmale::output

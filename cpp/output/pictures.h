@@ -16,11 +16,14 @@
 /// makes from it, from curves.csv and from the field files.
 namespace mmale::output
 {
-/// A horizontal line that curves are held against.
-struct ReferenceLine
+using scene::ReferenceLine;
+
+/// How curves share a picture.
+enum class Layout
 {
-  double value = 0;
-  std::string label = {};
+  together,   ///< in one chart
+  panels,     ///< each with its own, for they differ in unit
+  diagnostics ///< small panels, without those that are NaN or 0 throughout
 };
 
 /// Curves over one abscissa in one picture.
@@ -30,6 +33,9 @@ struct Chart
   std::string x = {};              ///< column of curves.csv
   std::vector<std::string> y = {}; ///< columns of curves.csv
   std::vector<ReferenceLine> references = {};
+  Layout layout = Layout::together;
+  std::string title = {};                 ///< default that of the run
+  std::string x_label = {}, y_label = {}; ///< default the names
 };
 
 /// What a field is, for its colour bar.
@@ -50,18 +56,20 @@ struct Pictures
   bool axisymmetric = false;
 };
 
-/// Charts that show every curve once: those with a reference at a place over
-/// that place's curve with the reference as a line, the others over time.
+/// Charts of references: each curve with a reference at a place over that
+/// place's curve, the reference as a line.
 ///
-/// @param[in] curves     columns of curves.csv
-/// @param[in] time       the column that is the time
+/// @param[in] curves  those that the scene names; varieties of a charted curve
+///                    (p_sy_eff of p_sy) are drawn beside it
 std::vector<Chart> charts(std::span<const std::string> curves,
-                          std::span<const Reference> references,
-                          const std::string& time = "time");
+                          std::span<const Reference> references);
 
-/// Pictures of a scene: its own and the charts.
+/// Pictures of a scene: its charts, or those of the references if it has none;
+/// `curves`, its curves that no chart shows; `diagnostics`, all other columns.
+///
+/// @param[in] columns of curves.csv
 Pictures pictures(const scene::Scene& scene,
-                  std::span<const std::string> curves,
+                  std::span<const std::string> columns,
                   std::span<const Reference> references,
                   const std::map<std::string, FieldInfo>& info);
 
@@ -75,6 +83,15 @@ std::string to_json(const Pictures& pictures);
 /// matplotlib, unwritable folder); the run itself is not at fault
 [[nodiscard]] std::string draw(const std::filesystem::path& folder,
                                const Pictures& pictures);
+
+/// Draw each chart and each field picture of a sweep with all its runs.
+///
+/// @param[in] folder   of the sweep; the pictures go there
+/// @param[in] members  folders of the runs
+/// @return as for draw()
+[[nodiscard]] std::string
+draw_sweep(const std::filesystem::path& folder,
+           std::span<const std::filesystem::path> members);
 
 /// Where draw.py is: MMALE_DRAW if set, else as installed or built.
 std::filesystem::path draw_program();

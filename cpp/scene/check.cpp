@@ -122,6 +122,13 @@ public:
       enter(key.name + "." + stage_label(stages, i), stages[i]);
   }
 
+  template <Table T>
+  void operator()(const Key& key, std::vector<T>& tables)
+  {
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      enter(key.name + "." + std::to_string(i), tables[i]);
+  }
+
   void rest(const std::string&, std::map<std::string, double>&) {}
 
   template <class F>

@@ -70,8 +70,9 @@ double count_cells(const Mesh& mesh)
   return count;
 }
 
-void check_size(const Mesh& mesh, Complaints& out)
+void check_size(const Mesh& coarse, Complaints& out)
 {
+  const Mesh mesh = coarse.refined();
   const bool by_cells = mesh.cells[0] > 0 or mesh.cells[1] > 0;
   if (mesh.size > 0 and by_cells)
     out.push_back({"mesh.cells", "give size or cells, not both", {}});
@@ -96,7 +97,9 @@ void check_size(const Mesh& mesh, Complaints& out)
                                  mesh.size, longest),
                      {}});
     else if (cells > max_cells)
-      out.push_back({by_cells ? "mesh.cells" : "mesh.size",
+      out.push_back({coarse.refine > 1 ? "mesh.refine"
+                     : by_cells        ? "mesh.cells"
+                                       : "mesh.size",
                      std::format("makes about {:.3g} cells, more than {:.3g}",
                                  cells, max_cells),
                      {}});

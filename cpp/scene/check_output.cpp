@@ -95,6 +95,42 @@ void check_curves(const Scene& scene, Complaints& out)
   }
 }
 
+/// The curves of charts are there, and no two pictures share a file.
+void check_charts(const Scene& scene, Complaints& out)
+{
+  auto columns = names_of(scene.output.curve);
+  columns.insert(columns.begin(), {"time", "step"});
+  for (const auto& [name, chart] : scene.output.chart)
+  {
+    const std::string key = "output.chart." + name;
+    const auto look_up = [&](const std::string& column, const char* part)
+    {
+      if (std::ranges::find(columns, column) == columns.end())
+        out.push_back(
+            {key + part,
+             "no curve '" + column + "', " + suggestion(column, columns),
+             {}});
+    };
+    look_up(chart.x, ".x");
+    for (const std::string& y : chart.y)
+      look_up(y, ".y");
+    if (chart.y.empty())
+      out.push_back(
+          {key + ".y",
+           missing("Curves that it shows", "", "some of " + join(columns)),
+           {}});
+    if (scene.output.picture.contains(name))
+      out.push_back({key, "a picture has this name too", {}});
+  }
+  for (const char* name : {"curves", "diagnostics"})
+    for (const std::string table : {"chart", "picture"})
+      if (table == "chart" ? scene.output.chart.contains(name)
+                           : scene.output.picture.contains(name))
+        out.push_back({"output." + table + "." + name,
+                       "is a picture of its own; take another name",
+                       {}});
+}
+
 void check_pictures(const Scene& scene, const Libraries& libraries, double end,
                     Complaints& out)
 {
@@ -112,6 +148,10 @@ void check_pictures(const Scene& scene, const Libraries& libraries, double end,
                      {}});
     if (picture.field.empty() and not picture.mesh)
       out.push_back({key, "shows nothing: give a field or mesh = true", {}});
+    if (picture.field.empty() and picture.surface)
+      out.push_back({key + ".surface", "needs a field", {}});
+    if (picture.surface and picture.arrows)
+      out.push_back({key + ".surface", "leaves no room for arrows", {}});
     // The sum of durations carries round-off.
     if (picture.at < infinity and picture.at > end * (1 + 1e-12))
       out.push_back(
@@ -149,6 +189,7 @@ void check_output(const Scene& scene, const Libraries& libraries,
   for (const Stage& stage : scene.stage)
     end += stage.duration;
   check_curves(scene, out);
+  check_charts(scene, out);
   check_pictures(scene, libraries, end, out);
   for (const auto& [name, line] : scene.output.line)
   {

@@ -99,6 +99,15 @@ public:
       fill(_json[key.name].emplace_back(Json::object()), stage);
   }
 
+  template <Table T>
+  void operator()(const Key& key, std::vector<T>& tables)
+  {
+    if (tables.empty())
+      return;
+    for (T& table : tables)
+      fill(_json[key.name].emplace_back(Json::object()), table);
+  }
+
   void rest(const std::string&, std::map<std::string, double>& numbers)
   {
     for (const auto& [name, x] : numbers)

@@ -244,6 +244,20 @@ public:
                      node->items[i].entries.at("name").place);
   }
 
+  template <Table T>
+  void operator()(const Key& key, std::vector<T>& tables)
+  {
+    const Node* node = find(key.name);
+    const std::string path = under(_path, key.name);
+    if (not node)
+      return;
+    if (node->kind != Node::Kind::list)
+      return wrong(*node, path, "a list of tables, written [{...}, {...}]");
+    tables.resize(node->items.size());
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      fill(node->items[i], under(path, std::to_string(i)), tables[i]);
+  }
+
   /// Every key that is not named otherwise; call it last.
   void rest(const std::string&, std::map<std::string, double>& numbers)
   {

@@ -113,6 +113,13 @@ public:
     enter(key, "list of tables", key.name + ".NAME", stage);
   }
 
+  template <Table T>
+  void operator()(const Key& key, std::vector<T>&)
+  {
+    T table;
+    enter(key, "list of tables", key.name + ".NUMBER", table);
+  }
+
   // The laws' numbers follow at the end of the reference.
   void rest(const std::string&, std::map<std::string, double>&) {}
 

@@ -65,6 +65,10 @@ struct Mesh
   std::optional<Grading> grading;
   double distortion = 0; ///< inner nodes moved at random by up to this share
                          ///< of the local edge, 0 <= distortion < 0.4
+  double refine = 1;     ///< every edge is divided by it
+
+  /// The same mesh with refine = 1 and the sizes or cells that it comes to.
+  Mesh refined() const;
 };
 
 /// A named part of a side: the facets whose midpoint lies between `from` and
@@ -229,7 +233,26 @@ struct Picture
   std::string field; ///< name in the field files, or "" for the mesh alone
   bool mesh = true;
   bool arrows = false;  ///< velocity (displacement increment over step)
+  bool surface = false; ///< the field as height over the plane
+  bool start = false;   ///< and, beside it, the same at the start
   double at = infinity; ///< drawn at this time of the run [s]; default the end
+};
+
+/// A value that curves are held against, drawn as a horizontal line.
+struct ReferenceLine
+{
+  double value = required;
+  std::string label; ///< where it comes from
+};
+
+/// Curves over one abscissa in one picture; a sweep lays its runs into one.
+struct Chart
+{
+  std::string x = "time";     ///< time, step or a curve
+  std::vector<std::string> y; ///< curves
+  std::vector<ReferenceLine> references;
+  std::string title;            ///< default the scene's
+  std::string x_label, y_label; ///< default the names
 };
 
 struct Output
@@ -237,6 +260,7 @@ struct Output
   double fields_every = 0; ///< [s]; 0: start, end, and the pictures' times
   std::map<std::string, Curve> curve;
   std::map<std::string, Line> line;
+  std::map<std::string, Chart> chart;
   std::map<std::string, Picture> picture;
 };
 

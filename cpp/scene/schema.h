@@ -29,9 +29,9 @@ template <class T, class... U>
 concept OneOf = (std::same_as<T, U> or ...);
 
 template <class T>
-concept Table =
-    OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Stage, Solver,
-          Remap, Tracer, Motion, Curve, Line, Picture, Output, Scene>;
+concept Table = OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition,
+                      Stage, Solver, Remap, Tracer, Motion, Curve, Line,
+                      ReferenceLine, Chart, Picture, Output, Scene>;
 
 template <class T>
 concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Tangent, RemapMode>;
@@ -121,6 +121,9 @@ void keys(V& v, Mesh& m)
      "Inner nodes are moved at random by up to this share of an edge.",
      {0, 0.4, false, true}},
     m.distortion);
+  v({"refine", "-", "Divides size and the grading's size, multiplies cells.",
+     above(0)},
+    m.refine);
 }
 
 template <class V>
@@ -291,12 +294,35 @@ void keys(V& v, Line& l)
 }
 
 template <class V>
+void keys(V& v, ReferenceLine& r)
+{
+  v({"value", "-", "Where the line lies, in the unit of the curves."}, r.value);
+  v({"label", "", "What it is."}, r.label);
+}
+
+template <class V>
+void keys(V& v, Chart& c)
+{
+  v({"x", "", "Abscissa: time, step or a curve."}, c.x);
+  v({"y", "", "Curves that it shows."}, c.y);
+  v({"references", "", "Values that the curves are held against."},
+    c.references);
+  v({"title", "", "Title; default the scene's."}, c.title);
+  v({"x_label", "", "What stands at the abscissa; default its name."},
+    c.x_label);
+  v({"y_label", "", "What stands at the ordinate; default the curve's name."},
+    c.y_label);
+}
+
+template <class V>
 void keys(V& v, Picture& p)
 {
   v({"field", "", "Field that it shows; without one, the mesh alone."},
     p.field);
   v({"mesh", "", "Draw the mesh."}, p.mesh);
   v({"arrows", "", "Draw the velocity as arrows."}, p.arrows);
+  v({"surface", "", "Draw the field as height over the plane."}, p.surface);
+  v({"start", "", "Beside it, draw the same at the start."}, p.start);
   v({"at",
      "s",
      "Time of the run that it shows; default the end.",
@@ -313,6 +339,7 @@ void keys(V& v, Output& o)
     o.fields_every);
   v({"curve", "", "Columns of curves.csv, by name."}, o.curve);
   v({"line", "", "Values along straight lines, by name."}, o.line);
+  v({"chart", "", "Curves in one picture, by name."}, o.chart);
   v({"picture", "", "Pictures, by name."}, o.picture);
 }
 

@@ -430,6 +430,17 @@ expect "Agg self,sm"
 out=$(echo piped | mmale shell -- cat 2>&1)
 expect piped
 
+begin "a demo's own arguments are added unless the user changes keys"
+printf '# a sweep\nmesh.refine=1,2  # two meshes\n' > "$project/demos/piercing/arguments"
+call demo
+expect "program run demos/piercing/scene.toml mesh.refine=1,2 commit"
+call demo piercing --results="$sandbox/a b"
+expect "program run demos/piercing/scene.toml mesh.refine=1,2 --results=$sandbox/a b commit"
+call demo piercing mesh.size=0.1
+expect "program run demos/piercing/scene.toml mesh.size=0.1 commit"
+call demo cook_membrane
+expect "program run demos/cook_membrane/scene.toml commit"
+
 begin "-n starts ranks"
 call demo piercing -n 3 a.b=1
 expect_code 0

@@ -122,10 +122,10 @@ def write_run(folder, pieces=1, size=0.05, n=10):
     )
     z = np.linspace(0, 0.25, 101)
     p = 2.9685 * (1 + size) * np.tanh(z / 0.012)
-    rows = ["time,z_B,p_sy,p_sy_eff,reaction_y"]
+    rows = ["time,z_B,p_sy,p_sy_eff,reaction_y,clipped,gap"]
     rows += [
         f"{float(a)!r},{float(a)!r},{float(b)!r},{float(b) / (1 + size)!r},"
-        f"{-2e4 * float(b)!r}"
+        f"{-2e4 * float(b)!r},0,nan"
         for a, b in zip(z, p)
     ]
     (folder / "curves.csv").write_text("\n".join(rows) + "\n")
@@ -148,6 +148,14 @@ def write_run(folder, pieces=1, size=0.05, n=10):
                 "x": "time",
                 "y": ["reaction_y", "z_B", "p_sy"],
                 "references": [],
+                "layout": "panels",
+            },
+            {
+                "file": "diagnostics.png",
+                "x": "time",
+                "y": ["reaction_y", "clipped", "gap"],
+                "references": [],
+                "layout": "diagnostics",
             },
         ],
         "field_file": "fields.pvd",
@@ -156,14 +164,19 @@ def write_run(folder, pieces=1, size=0.05, n=10):
             picture("strain.png", "plastic_strain"),
             picture("pressure.png", "p", unit="Pa", mesh=False, time=0.12),
             picture("flow.png", "plastic_strain", arrows="velocity", mesh=False),
+            picture("hill.png", "plastic_strain", surface=True, start=True),
         ],
     }
     (folder / "pictures.json").write_text(json.dumps(plan))
     return folder
 
 
-def picture(file, field, mesh=True, arrows=None, time=None, unit=""):
+PICTURES = "p_sy_over_z_B curves diagnostics mesh strain pressure flow hill".split()
+
+
+def picture(file, field, mesh=True, arrows=None, time=None, unit="", **more):
     return {
+        **more,
         "file": file,
         "field": field,
         "unit": unit,
@@ -202,7 +215,7 @@ class Draw(unittest.TestCase):
         for pieces in (1, 2):
             run = write_run(self.folder / str(pieces), pieces)
             self.assertIsNone(called("run", run))
-            for name in "p_sy_over_z_B curves mesh strain pressure flow".split():
+            for name in PICTURES:
                 breadth, height = png_size(run / f"{name}.png")
                 self.assertGreater(min(breadth, height), 400, name)
             self.assertEqual(list(run.glob("*.part")), [])
@@ -270,6 +283,42 @@ class Draw(unittest.TestCase):
         self.assertEqual(
             draw.run_labels(runs),
             ["mesh.size = 0.1", "mesh.size = 0.05", "mesh.size = 0.025"],
+        )
+
+    def test_a_sweep_is_drawn_run_beside_run(self):
+        sizes = (0.1, 0.05)
+        runs = [write_run(self.folder / f"h={h}", size=h) for h in sizes]
+        died = self.folder / "h=0"  # before it had anything to show
+        died.mkdir()
+        self.assertIsNone(called("run", runs[0]))
+        self.assertIsNone(called("sweep", self.folder, *runs, died))
+        drawn = {file.name for file in self.folder.glob("*.png")}
+        one = {file.name for file in runs[0].glob("*.png")}
+        self.assertEqual(drawn, one - {"diagnostics.png"})
+        for name, more in (("strain", 1.3), ("hill", 1.3)):
+            breadth = png_size(runs[0] / f"{name}.png")[0]
+            self.assertGreater(png_size(self.folder / f"{name}.png")[0], more * breadth)
+
+    def test_diagnostics_leave_out_what_tells_nothing(self):
+        curves = {
+            "a": np.array([0.0, 1.0]),
+            "zero": np.zeros(2),
+            "nan": np.full(2, np.nan),
+            "late": np.array([np.nan, 2.0]),
+        }
+        names = ["nan", "late", "zero", "a", "absent"]
+        self.assertEqual(draw_charts.telling(curves, names), ["late", "a"])
+
+    def test_cell_values_go_to_nodes_by_area(self):
+        grid = read_run.Grid(
+            0.0,
+            np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]),
+            np.array([[0, 1, 2], [0, 2, 3]]),
+            {},
+            {},
+        )  # areas 1 and 1/2
+        np.testing.assert_allclose(
+            draw_fields.at_nodes(grid, np.array([3.0, 6.0])), [4, 3, 4, 6]
         )
 
     def test_what_cannot_be_drawn_is_told_and_the_rest_drawn(self):

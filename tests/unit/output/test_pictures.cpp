@@ -44,8 +44,7 @@ bool is_png(const std::filesystem::path& file)
 
 TEST_CASE("pictures: a curve with a reference is drawn over its own abscissa")
 {
-  const std::vector<std::string> names = {"time", "z_B", "p_sy", "p_sy_eff",
-                                          "reaction"};
+  const std::vector<std::string> names = {"z_B", "p_sy", "p_sy_eff", "load"};
   const std::vector<Reference> references = {
       {.name = "p_at_0.05",
        .curve = "p_sy",
@@ -55,24 +54,59 @@ TEST_CASE("pictures: a curve with a reference is drawn over its own abscissa")
        .source = "Prandtl"},
       {.name = "reached", .curve = "z_B", .take = Reference::Take::last}};
   const std::vector<Chart> c = charts(names, references);
-  REQUIRE(c.size() == 2);
+  REQUIRE(c.size() == 1);
   CHECK(c[0].name == "p_sy_over_z_B");
   CHECK(c[0].x == "z_B");
   CHECK(c[0].y == std::vector<std::string>{"p_sy", "p_sy_eff"});
   REQUIRE(c[0].references.size() == 1);
   CHECK(c[0].references[0].value == 2.9685);
   CHECK(c[0].references[0].label == "Prandtl");
-  CHECK(c[1].name == "curves");
-  CHECK(c[1].y == std::vector<std::string>{"reaction"});
+  CHECK(charts(names, {}).empty());
 }
 
-TEST_CASE("pictures: every curve is drawn once without references too")
+TEST_CASE("pictures: every column is drawn, the scene's apart from the others")
 {
-  const std::vector<std::string> names = {"time", "a", "b"};
-  const std::vector<Chart> c = charts(names, {});
-  REQUIRE(c.size() == 1);
-  CHECK(c[0].y == std::vector<std::string>{"a", "b"});
-  CHECK(charts(std::vector<std::string>{"time"}, {}).empty());
+  const std::vector<std::string> columns = {"time", "step", "z_B",
+                                            "p_sy", "load", "left.reaction_x"};
+  const std::vector<Reference> references = {{.name = "p_at_0.05",
+                                              .curve = "p_sy",
+                                              .take = Reference::Take::at,
+                                              .at = {"z_B", 0.05},
+                                              .reference = 2.9685}};
+  mmale::scene::Scene scene;
+  for (const char* name : {"z_B", "p_sy", "load"})
+    scene.output.curve[name] = {};
+  SECTION("without charts the references make one")
+  {
+    const auto c = pictures(scene, columns, references, {}).charts;
+    REQUIRE(c.size() == 3);
+    CHECK(c[0].name == "p_sy_over_z_B");
+    CHECK(c[1].name == "curves");
+    CHECK(c[1].y == std::vector<std::string>{"load"});
+    CHECK(c[1].layout == Layout::panels);
+    CHECK(c[2].name == "diagnostics");
+    CHECK(c[2].y == std::vector<std::string>{"step", "left.reaction_x"});
+    CHECK(c[2].layout == Layout::diagnostics);
+  }
+  SECTION("the scene's charts take their place")
+  {
+    scene.output.chart["pull"] = {
+        .x = "load", .y = {"z_B"}, .references = {{2, "two"}}, .title = "T"};
+    const auto c = pictures(scene, columns, references, {}).charts;
+    REQUIRE(c.size() == 3);
+    CHECK(c[0].name == "pull");
+    CHECK(c[0].x == "load");
+    CHECK(c[0].y == std::vector<std::string>{"z_B"});
+    CHECK(c[0].references[0].label == "two");
+    CHECK(c[0].title == "T");
+    CHECK(c[0].layout == Layout::together);
+    CHECK(c[1].y == std::vector<std::string>{"p_sy"});
+  }
+  SECTION("nothing is drawn of nothing")
+  {
+    CHECK(
+        pictures({}, std::vector<std::string>{"time"}, {}, {}).charts.empty());
+  }
 }
 
 TEST_CASE("pictures: pictures.json says what the scene asked for")
@@ -107,6 +141,25 @@ TEST_CASE("pictures: a run's curves become a picture")
   const std::string warning = draw(folder.path, p);
   CHECK(warning.empty());
   CHECK(is_png(folder.path / "curves.png"));
+}
+
+TEST_CASE("pictures: the runs of a sweep are drawn into one chart")
+{
+  const Variable place("MMALE_DRAW", MMALE_DRAW_SOURCE);
+  const Folder folder;
+  Pictures p;
+  p.charts = {{.name = "curves", .x = "time", .y = {"a"}}};
+  const std::vector<std::filesystem::path> members = {folder.path / "k=1",
+                                                      folder.path / "k=2"};
+  for (const auto& member : members)
+  {
+    std::filesystem::create_directories(member);
+    put(member / "curves.csv", "time,a\n0,1\n1,3\n2,2\n");
+    put(member / "pictures.json", to_json(p));
+  }
+  CHECK(draw_sweep(folder.path, members).empty());
+  CHECK(is_png(folder.path / "curves.png"));
+  CHECK_THAT(draw_sweep(folder.path, {}), ContainsSubstring("required: runs"));
 }
 
 TEST_CASE("pictures: what stops the drawing is told and nothing thrown")

@@ -94,7 +94,7 @@ TEST_CASE("overrides: mistakes are the command line's, all at once", "[scene]")
            "with spaces or signs in quotes\n"
            "command line: mesh.sice: unknown key, did you mean 'size'? (known: "
            "shape, width, height, origin, corners, size, cells, diagonal, "
-           "grading, distortion)\n"
+           "grading, distortion, refine)\n"
            "command line: mesh.size: must be >= 0 m, is -1\n"
            "command line: mesh.width.x: no 'x': mesh.width is 1, it has no "
            "keys\n"
