@@ -32,8 +32,7 @@ std::vector<int> watched(const Simulation& sim)
 
 Monitor::Monitor(const Simulation& sim)
     : _sim(sim), _probe(sim.domain.mesh), _names{"time", "step"},
-      _watched(watched(sim)),
-      _moved(sim.domain.boundary_names.size(), {0, 0})
+      _watched(watched(sim)), _moved(sim.domain.boundary_names.size(), {0, 0})
 {
   for (const auto& [name, curve] : sim.scene.output.curve)
   {
@@ -51,8 +50,8 @@ Monitor::Monitor(const Simulation& sim)
     _columns.push_back(c);
   }
   for (int b : _watched)
-    for (const char* what : {".reaction_x", ".reaction_y", ".displacement_x",
-                             ".displacement_y"})
+    for (const char* what :
+         {".reaction_x", ".reaction_y", ".displacement_x", ".displacement_y"})
       _names.push_back(sim.domain.boundary_names[b] + what);
   if (sim.problem)
     for (const char* name : {"iterations", "pressure_gap", "volume_gap"})
@@ -73,7 +72,8 @@ double Monitor::breadth(const scene::Curve& curve) const
     return 1;
   const auto& d = _sim.domain;
   const int b = d.boundary(curve.boundary);
-  const bool upright = d.boundary_sides[b] == "left" or d.boundary_sides[b] == "right";
+  const bool upright =
+      d.boundary_sides[b] == "left" or d.boundary_sides[b] == "right";
   const auto at = [&](int n) { return d.initial_x[2 * n + upright]; };
   double ends[2] = {std::numeric_limits<double>::max(),
                     std::numeric_limits<double>::max()}; // low, minus high
@@ -107,17 +107,19 @@ double Monitor::breadth(const scene::Curve& curve) const
 double Monitor::integral(std::span<const double> density) const
 {
   double out = 0;
-  const bool axisymmetric
-      = _sim.scene.symmetry == scene::Symmetry::axisymmetric;
+  const bool axisymmetric =
+      _sim.scene.symmetry == scene::Symmetry::axisymmetric;
   for (int c = 0; c < _sim.domain.num_owned_cells; ++c)
-    out += (density.empty() ? 1 : density[c])
-           * lagrangian::cell_volume(_sim.domain, _sim.state.x, c,
-                                     axisymmetric);
-  return (axisymmetric ? 2 * std::numbers::pi : 1)
-         * sum(_sim.domain.comm, out);
+    out +=
+        (density.empty() ? 1 : density[c])
+        * lagrangian::cell_volume(_sim.domain, _sim.state.x, c, axisymmetric);
+  return (axisymmetric ? 2 * std::numbers::pi : 1) * sum(_sim.domain.comm, out);
 }
 
-double Monitor::volume() const { return integral({}); }
+double Monitor::volume() const
+{
+  return integral({});
+}
 
 double Monitor::tracer(const scene::Curve& c) const
 {
@@ -155,11 +157,10 @@ void Monitor::after_step(double dt)
       _moved[b][d] += dt * boundary_mean(b, state.v, 2, d);
   if (not _points.empty())
   {
-    const auto v = _probe.sample(
-        _spots, {.name = "velocity",
-                 .location = output::Location::nodal,
-                 .components = 2,
-                 .values = state.v});
+    const auto v = _probe.sample(_spots, {.name = "velocity",
+                                          .location = output::Location::nodal,
+                                          .components = 2,
+                                          .values = state.v});
     for (std::size_t i = 0; i < _points.size(); ++i)
       for (int d = 0; d < 2; ++d)
       {
@@ -222,17 +223,16 @@ std::vector<double> Monitor::row(double step, const StepLog& log)
     out.insert(out.end(), gap.begin(), gap.end());
   }
   if (_sim.remap)
-    out.insert(out.end(),
-               {bridge::worst_quality(_sim.domain, _sim.state),
-                static_cast<double>(log.remap.cycles),
-                static_cast<double>(log.remap.clipped)});
+    out.insert(out.end(), {bridge::worst_quality(_sim.domain, _sim.state),
+                           static_cast<double>(log.remap.cycles),
+                           static_cast<double>(log.remap.clipped)});
   return out;
 }
 
 output::Ledger Monitor::ledger() const
 {
-  const bool axisymmetric
-      = _sim.scene.symmetry == scene::Symmetry::axisymmetric;
+  const bool axisymmetric =
+      _sim.scene.symmetry == scene::Symmetry::axisymmetric;
   const double turn = axisymmetric ? 2 * std::numbers::pi : 1;
   const std::string per = axisymmetric ? "" : "/m";
   bridge::Exchange passed;

@@ -58,8 +58,8 @@ private:
   std::vector<std::array<double, 2>> _moved; ///< of each boundary, mean
   std::vector<std::array<double, 2>> _reactions;
   output::Ledger _start;
-  double _volume = 0;            ///< at the end of the last step
-  double _lagrangian_volume = 0; ///< change by the material's own motion
+  double _volume = 0;              ///< at the end of the last step
+  double _lagrangian_volume = 0;   ///< change by the material's own motion
   std::vector<double> _derived[3]; ///< von Mises, stress, quality
 };
 } // namespace mmale

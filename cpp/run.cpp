@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dolfinx/common/MPI.h>
+#include <iostream>
 #include <spdlog/spdlog.h>
 #include <sstream>
 
@@ -86,12 +87,11 @@ Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
       _sim(comm, scene), _monitor(_sim),
       _curves(make_curves(_root, options, _monitor.names())),
       _fields(_sim.domain.mesh, options.results), _probe(_sim.domain.mesh),
-      _progress(0, _end,
-                output::Progress::style(options.quiet or not _root))
+      _progress(0, _end, output::Progress::style(options.quiet or not _root))
 {
   if (not options.reference.empty())
-    _references = output::read_references(
-        options.reference, _monitor.names(), names(_monitor.ledger()));
+    _references = output::read_references(options.reference, _monitor.names(),
+                                          names(_monitor.ledger()));
   if (not _references.complaints.empty())
   {
     std::string all;
@@ -105,8 +105,8 @@ Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
   _summary.scene = options.scene_as_understood;
   _summary.cells = _sim.domain.cell_map().size_global();
   _summary.nodes = _sim.domain.nodes().size_global();
-  output::on_root(comm, [&]
-                  { write(options.results / "summary.json", _summary); });
+  output::on_root(comm,
+                  [&] { write(options.results / "summary.json", _summary); });
 }
 
 /// Times of a stage at which fields are written, from its start [s].
@@ -119,8 +119,8 @@ std::vector<double> Run::marks(double begin, double duration) const
     for (double t = every * (std::floor(begin / every) + 1);
          t < begin + duration; t += every)
       out.push_back(t - begin);
-  std::erase_if(out, [duration](double t)
-                { return not(t > 0 and t < duration); });
+  std::erase_if(out,
+                [duration](double t) { return not(t > 0 and t < duration); });
   return out;
 }
 
@@ -157,8 +157,8 @@ std::string Run::explain(const StepControl& control, const StepLog& log) const
   out << "stopped at the step floor: t = " << _sim.state.time << " s, step "
       << control.step() << " s is below " << control.floor() << " s; "
       << why.cause << ", cell " << why.cell << " at (" << why.place[0] << ", "
-      << why.place[1] << ") m, material '"
-      << _scene.material.begin()->first << "'";
+      << why.place[1] << ") m, material '" << _scene.material.begin()->first
+      << "'";
   return out.str();
 }
 
@@ -195,8 +195,8 @@ bool Run::stage(const scene::Stage& stage)
     _sim.state.time = begin + control.time();
     _monitor.after_step(t1 - t0);
     record(t1 - t0, log);
-    _progress.show({_sim.state.time, t1 - t0, _summary.steps,
-                    log.newton.iterations});
+    _progress.show(
+        {_sim.state.time, t1 - t0, _summary.steps, log.newton.iterations});
     if (std::ranges::find(outputs, control.time()) != outputs.end())
       write_fields();
     if (_stop.requested(_comm))
@@ -212,8 +212,8 @@ void Run::finish()
 {
   _summary.ledger = _monitor.ledger();
   _summary.time = _sim.state.time;
-  _summary.checks
-      = output::evaluate(_references.entries, _curves, _summary.ledger);
+  _summary.checks =
+      output::evaluate(_references.entries, _curves, _summary.ledger);
   _summary.timers = _sim.clock.timings(
       _summary.cells,
       [this](std::span<double> v)
@@ -222,19 +222,17 @@ void Run::finish()
                       MPI_DOUBLE, MPI_MAX, _comm);
       });
   _summary.wall_seconds = _sim.clock.wall();
-  output::on_root(_comm, [&]
-                  { write(_options.results / "summary.json", _summary); });
+  output::on_root(_comm,
+                  [&] { write(_options.results / "summary.json", _summary); });
   _progress.finish(_summary.outcome);
   if (not _root)
     return;
   if (not _options.quiet)
-    spdlog::info("\n{}{}",
-                 output::table(_summary.timers, _summary.wall_seconds),
-                 output::table(_summary.checks));
+    std::cout << output::table(_summary.timers, _summary.wall_seconds)
+              << output::table(_summary.checks) << std::flush;
   const auto trouble = output::draw(
-      _options.results,
-      output::pictures(_scene, _monitor.names(), _references.entries,
-                       _fields.info()));
+      _options.results, output::pictures(_scene, _monitor.names(),
+                                         _references.entries, _fields.info()));
   if (not trouble.empty())
     spdlog::warn("no pictures: {}", trouble);
 }

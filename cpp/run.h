@@ -21,7 +21,7 @@ struct RunOptions
 /// How a run ended.
 struct Result
 {
-  std::string outcome;  ///< "completed", or why it stopped
+  std::string outcome; ///< "completed", or why it stopped
   bool completed = false;
   bool checks_hold = true;
   std::map<std::string, double> last; ///< last row of curves.csv, by name

@@ -80,11 +80,10 @@ bool among(const std::vector<std::string>& list, const std::string& name)
   o.nodal_scheme = o.scheme;
   o.max_loss = scene.remap.max_loss;
   for (const std::string& name : domain.boundary_names)
-    o.boundaries.push_back(among(scene.remap.open, name)
-                               ? ::remap::Boundary::open
-                           : among(scene.remap.surface, name)
-                               ? ::remap::Boundary::free_surface
-                               : ::remap::Boundary::closed);
+    o.boundaries.push_back(
+        among(scene.remap.open, name)      ? ::remap::Boundary::open
+        : among(scene.remap.surface, name) ? ::remap::Boundary::free_surface
+                                           : ::remap::Boundary::closed);
   o.cell_components = widest;
   o.nodal_components = scene.motion ? 0 : 1;
   return o;
@@ -119,10 +118,10 @@ double worst_quality(const mesh::Domain& domain, const State& state)
   for (int c = 0; c < domain.num_owned_cells; ++c)
   {
     const auto [i, j, k] = domain.cells[c];
-    worst = std::min(worst, ::remap::quality::radius_ratio(
-                                ::remap::point(state.x, i),
-                                ::remap::point(state.x, j),
-                                ::remap::point(state.x, k)));
+    worst = std::min(
+        worst, ::remap::quality::radius_ratio(::remap::point(state.x, i),
+                                              ::remap::point(state.x, j),
+                                              ::remap::point(state.x, k)));
   }
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MIN, domain.comm);
   return worst;
@@ -163,8 +162,7 @@ namespace
 int history_numbers(const std::optional<material::AnyLaw>& law)
 {
   return law ? std::visit([](const auto& l)
-                          { return static_cast<int>(l.history.size()); },
-                          *law)
+                          { return static_cast<int>(l.history.size()); }, *law)
              : 0;
 }
 } // namespace
@@ -175,8 +173,8 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
     : domain(domain), scene(scene), law(law), clock(clock),
       host(make_host(domain)), mesh(make_mesh(domain)),
       history(history_numbers(law)),
-      remapper(mesh, transport_options(domain, scene,
-                                       std::max(law ? 4 : 1, history)))
+      remapper(mesh,
+               transport_options(domain, scene, std::max(law ? 4 : 1, history)))
 {
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
@@ -228,16 +226,15 @@ void RemapStep::set_stage(const scene::Stage&)
   m.direction.assign(2 * m.mesh.num_nodes(), 0);
   for (std::size_t b = 0; b < m.domain.boundary_names.size(); ++b)
     for (int n : m.domain.boundary_nodes(static_cast<int>(b)))
-      m.kinds[n]
-          = m.kinds[n] != ::remap::Kind::free ? ::remap::Kind::fixed
-            : among(m.scene.remap.surface, m.domain.boundary_names[b])
-                ? ::remap::Kind::surface
-                : ::remap::Kind::slide;
+      m.kinds[n] = m.kinds[n] != ::remap::Kind::free ? ::remap::Kind::fixed
+                   : among(m.scene.remap.surface, m.domain.boundary_names[b])
+                       ? ::remap::Kind::surface
+                       : ::remap::Kind::slide;
   for (const mesh::Facet& f : m.domain.facets)
     for (int d = 0; d < 2; ++d)
     {
-      const double along = m.domain.initial_x[2 * f.b + d]
-                           - m.domain.initial_x[2 * f.a + d];
+      const double along =
+          m.domain.initial_x[2 * f.b + d] - m.domain.initial_x[2 * f.a + d];
       m.direction[2 * f.a + d] += along;
       m.direction[2 * f.b + d] += along;
     }
@@ -343,8 +340,7 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     cells.push_back({.values = values, .inflow = inflow.back()});
   }
   const ::remap::Ledger before = ledger;
-  const auto outcome
-      = remapper.remap(state.x, x, cells, nodes, host, ledger);
+  const auto outcome = remapper.remap(state.x, x, cells, nodes, host, ledger);
   log.cycles = remapper.report().cycles;
   if (outcome != ::remap::Outcome::ok)
   {
@@ -387,8 +383,7 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
 void RemapStep::run(State& state, RemapLog& log)
 {
   std::vector<double> x;
-  if (not _impl->smooth(state, x, log)
-      or not _impl->transport(state, x, log))
+  if (not _impl->smooth(state, x, log) or not _impl->transport(state, x, log))
     return;
   _impl->home = state.x;
   _impl->make_admissible(state, log);
@@ -409,8 +404,8 @@ Exchange RemapStep::exchange() const
   }
   for (const auto& [name, tracer] : _impl->scene.tracer)
   {
-    out.tracer[name]
-        = k < ledger.cells.size() ? ::remap::net(ledger.cells[k]) : 0;
+    out.tracer[name] =
+        k < ledger.cells.size() ? ::remap::net(ledger.cells[k]) : 0;
     ++k;
   }
   return out;

@@ -23,11 +23,11 @@ namespace mmale::bridge
 struct RemapLog
 {
   bool done = false;
-  std::string trouble;         ///< why it was left out; the mesh then stays
-  int cycles = 0;              ///< sub-cycles of the transport
-  double quality = 1;          ///< worst cell after smoothing
-  std::int64_t clipped = 0;    ///< cells brought back to the yield surface
-  double clipped_largest = 0;  ///< by this part of their stress
+  std::string trouble;        ///< why it was left out; the mesh then stays
+  int cycles = 0;             ///< sub-cycles of the transport
+  double quality = 1;         ///< worst cell after smoothing
+  std::int64_t clipped = 0;   ///< cells brought back to the yield surface
+  double clipped_largest = 0; ///< by this part of their stress
 };
 
 /// What passed the boundary since the start, inward positive.

@@ -48,17 +48,16 @@ Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
           _series.push_back({u ? *u : *v, not u});
           hold(nodes, d, b, static_cast<int>(_series.size()) - 1);
         }
-        if (not prescribed
-            and (c.fixed or (c.roller and (d == 0) == upright)))
+        if (not prescribed and (c.fixed or (c.roller and (d == 0) == upright)))
           hold(nodes, d, b, in_place);
       }
       if (prescribed and (c.traction_x or c.traction_y or c.pressure))
         _loaded.push_back({b, c.traction_x, c.traction_y, c.pressure});
       if (prescribed and c.wall)
-        _walls.push_back({b, c.wall->x, side_of_body(domain, b, c.wall->x),
-                          c.wall->grip == "rough",
-                          c.wall->velocity_y.value_or(
-                              scene::TimeSeries{{}, {0.0}})});
+        _walls.push_back(
+            {b, c.wall->x, side_of_body(domain, b, c.wall->x),
+             c.wall->grip == "rough",
+             c.wall->velocity_y.value_or(scene::TimeSeries{{}, {0.0}})});
     }
 }
 
@@ -80,8 +79,8 @@ void Conditions::increments(double t0, double t1, std::span<double> g) const
   for (std::size_t i = 0; i < _series.size(); ++i)
   {
     const auto& [f, rate] = _series[i];
-    value[i] = rate ? f.integral(t1) - f.integral(t0)
-                    : f(t1) - (t0 > 0 ? f(t0) : 0.0);
+    value[i] =
+        rate ? f.integral(t1) - f.integral(t0) : f(t1) - (t0 > 0 ? f(t0) : 0.0);
   }
   for (const auto& [unknown, series] : _held)
     g[unknown] = series == in_place ? 0.0 : value[series];

@@ -22,9 +22,9 @@ struct Load
 struct Wall
 {
   int boundary;
-  double x;       ///< [m]
-  double sign;    ///< +1: the body lies to the right of it
-  bool rough;     ///< what has touched it moves with it
+  double x;                     ///< [m]
+  double sign;                  ///< +1: the body lies to the right of it
+  bool rough;                   ///< what has touched it moves with it
   scene::TimeSeries velocity_y; ///< of a rough one [m/s]
 };
 

@@ -25,48 +25,40 @@ Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
 void Contact::begin_step(std::span<const double> x, double t0, double t1)
 {
   for (std::size_t w = 0; w < _walls.size(); ++w)
-    _rise[w] = _walls[w].velocity_y.integral(t1)
-               - _walls[w].velocity_y.integral(t0);
+    _rise[w] =
+        _walls[w].velocity_y.integral(t1) - _walls[w].velocity_y.integral(t0);
   for (Candidate& c : _candidates)
   {
     const Wall& wall = _walls[c.wall];
     c.held = wall.sign * (x[2 * c.node] - wall.x) <= _gap;
-    c.let_go = 0;
   }
 }
 
 bool Contact::update(std::span<const double> x, std::span<const double> z,
-                     std::span<const double> force)
+                     std::span<const double> force, double stiffness)
 {
   // Owners decide; ghosts follow.
   std::vector<double> held(_domain.num_nodes(), 0);
   int changed = 0;
-  for (Candidate& c : _candidates)
+  for (const Candidate& c : _candidates)
   {
     if (c.node >= _domain.num_owned_nodes)
       continue;
     const Wall& wall = _walls[c.wall];
-    const double gap
-        = wall.sign * (x[2 * c.node] + z[3 * c.node] - wall.x);
-    const bool pulled = wall.sign * force[3 * c.node] < 0;
-    if (c.held and not wall.rough and pulled and c.let_go < 2)
-    {
-      c.held = false;
-      ++c.let_go;
-      changed = 1;
-    }
-    else if (not c.held and gap < -_gap)
-    {
-      c.held = true;
-      changed = 1;
-    }
-    held[c.node] = c.held;
+    const double gap = wall.sign * (x[2 * c.node] + z[3 * c.node] - wall.x);
+    const double push = wall.sign * force[3 * c.node] / stiffness;
+    const bool hold =
+        wall.rough ? c.held or gap < -_gap : push - gap > -1e-3 * _gap;
+    changed |= hold != c.held;
+    held[c.node] = hold;
   }
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, _domain.comm);
+  if (changed == 0)
+    return false;
   mesh::update_ghosts(_domain.nodes(), held, 1);
   for (Candidate& c : _candidates)
     c.held = held[c.node] > 0;
-  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, _domain.comm);
-  return changed != 0;
+  return true;
 }
 
 void Contact::apply(std::span<const double> x, std::span<int> holder,

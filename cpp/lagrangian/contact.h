@@ -22,15 +22,19 @@ public:
   /// @param[in] t0,t1 step, from the start of the stage [s]
   void begin_step(std::span<const double> x, double t0, double t1);
 
-  /// Take up nodes that have passed a wall, let go those that it pulls.
-  /// Collective.
+  /// Hold or free nodes by their distance and their reaction, in the midst of
+  /// Newton: a node is held while reaction / stiffness exceeds its distance
+  /// from the wall. At a solution this is: no gap and a push, or a gap and no
+  /// force. Collective.
   ///
-  /// @param[in] x     at the start of the step, shape (n, 2) [m]
-  /// @param[in] z     unknowns at its end, shape (n, 3)
-  /// @param[in] force residual, shape (n, 3)
+  /// @param[in] x         at the start of the step, shape (n, 2) [m]
+  /// @param[in] z         unknowns now, shape (n, 3)
+  /// @param[in] force     residual, owned entries, shape (n, 3)
+  /// @param[in] stiffness that makes a force a length [Pa]
   /// @return has any rank changed the set?
+  /// @source Hüeber & Wohlmuth, Comput. Methods Appl. Mech. Engng 194 (2005)
   bool update(std::span<const double> x, std::span<const double> z,
-              std::span<const double> force);
+              std::span<const double> force, double stiffness);
 
   /// Add what is held now to the unknowns' holders and increments.
   ///
@@ -45,9 +49,9 @@ private:
   struct Candidate
   {
     int node;
-    int wall;          ///< index into _walls
+    int wall; ///< index into _walls
     bool held = false;
-    int let_go = 0;    ///< times in this step; a node that flutters stays
+    int let_go = 0; ///< times in this step; a node that flutters stays
   };
   const mesh::Domain& _domain;
   std::vector<Wall> _walls;

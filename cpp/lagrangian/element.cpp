@@ -34,9 +34,10 @@ double cell_volume(const mesh::Domain& domain, std::span<const double> x,
                    int cell, bool axisymmetric)
 {
   const auto [i, j, k] = domain.cells[cell];
-  const double area = 0.5
-                      * ((x[2 * j] - x[2 * i]) * (x[2 * k + 1] - x[2 * i + 1])
-                         - (x[2 * k] - x[2 * i]) * (x[2 * j + 1] - x[2 * i + 1]));
+  const double area =
+      0.5
+      * ((x[2 * j] - x[2 * i]) * (x[2 * k + 1] - x[2 * i + 1])
+         - (x[2 * k] - x[2 * i]) * (x[2 * j + 1] - x[2 * i + 1]));
   return axisymmetric ? area * (x[2 * i] + x[2 * j] + x[2 * k]) / 3 : area;
 }
 
@@ -52,9 +53,9 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
       _B(_axisymmetric ? *form_balance_B_axi : *form_balance_B_plane,
          IntegralKind::cell),
       _cell(domain.num_owned_cells), _volume(domain.num_owned_cells),
-      _num_history(std::visit(
-          [](const auto& l) { return static_cast<int>(l.history.size()); },
-          law))
+      _num_history(std::visit([](const auto& l)
+                              { return static_cast<int>(l.history.size()); },
+                              law))
 {
   _history.resize(static_cast<std::size_t>(_num_history)
                   * domain.num_owned_cells);
@@ -107,13 +108,11 @@ int Element::evaluate(const State& state, std::span<const double> z,
           }
           mid_gradient(_axisymmetric, w, x, cell.G.data());
           cell.motion = motion(cell.G);
-          const double area
-              = 0.5
-                * ((end[2] - end[0]) * (end[5] - end[1])
-                   - (end[4] - end[0]) * (end[3] - end[1]));
-          _volume[c] = _axisymmetric
-                           ? area * (end[0] + end[2] + end[4]) / 3
-                           : area;
+          const double area = 0.5
+                              * ((end[2] - end[0]) * (end[5] - end[1])
+                                 - (end[4] - end[0]) * (end[3] - end[1]));
+          _volume[c] =
+              _axisymmetric ? area * (end[0] + end[2] + end[4]) / 3 : area;
           if (not(area > 0) or not std::isfinite(cell.motion.ln_J)
               or not std::isfinite(cell.p))
           {
@@ -124,11 +123,11 @@ int Element::evaluate(const State& state, std::span<const double> z,
           const material::Increment step{
               rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine), m.de,
               state.P[c], cell.p};
-          if (law.update(step, kind,
-                         std::span(_history).subspan(
-                             static_cast<std::size_t>(_num_history) * c,
-                             _num_history),
-                         cell.answer)
+          if (law.update(
+                  step, kind,
+                  std::span(_history).subspan(
+                      static_cast<std::size_t>(_num_history) * c, _num_history),
+                  cell.answer)
               != Outcome::ok)
           {
             why = "the law asks for a smaller step";
@@ -204,8 +203,8 @@ void Element::residual(const State& state, int c, std::span<const double> z,
 {
   CellInput in;
   double x[9], R11[11] = {}, B[22] = {};
-  const bool constant_strain
-      = _options.element == scene::Element::constant_strain;
+  const bool constant_strain =
+      _options.element == scene::Element::constant_strain;
   gather(state, c, z, in, x);
   if (constant_strain)
     use_cell_pressure(c, in);
@@ -227,8 +226,8 @@ void Element::jacobian(const State& state, int c, std::span<const double> z,
 {
   CellInput in;
   double x[9], A[121] = {};
-  const bool constant_strain
-      = _options.element == scene::Element::constant_strain;
+  const bool constant_strain =
+      _options.element == scene::Element::constant_strain;
   gather(state, c, z, in, x);
   add_tangent(c, in);
   if (constant_strain)

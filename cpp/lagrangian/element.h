@@ -30,8 +30,7 @@ public:
   /// @param[in] state at the start of the step
   /// @param[in] z     trial unknowns (ux, uy, p), shape (nodes, 3), ghosts too
   /// @return local index of a cell where it failed, or -1; `why` tells
-  int evaluate(const State& state, std::span<const double> z,
-               std::string& why);
+  int evaluate(const State& state, std::span<const double> z, std::string& why);
 
   /// Residual of a cell after `evaluate`, nodal order [ux uy p] x 3.
   void residual(const State& state, int cell, std::span<const double> z,

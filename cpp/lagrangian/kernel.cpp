@@ -72,8 +72,8 @@ Kernel::Kernel(const ufcx_form& form, IntegralKind kind)
 {
   for (int i = 0; i < form.num_coefficients; ++i)
   {
-    const Offer& o
-        = find(coefficients, form.coefficient_name_map[i], "coefficient");
+    const Offer& o =
+        find(coefficients, form.coefficient_name_map[i], "coefficient");
     _coefficients.push_back({o.offset, o.size});
     _w_size += o.size;
   }
@@ -86,8 +86,7 @@ Kernel::Kernel(const ufcx_form& form, IntegralKind kind)
   const auto type = kind == IntegralKind::cell ? cell : exterior_facet;
   for (int i = form.form_integral_offsets[type];
        i < form.form_integral_offsets[type + 1]; ++i)
-    _functions.push_back(
-        form.form_integrals[i]->tabulate_tensor_float64);
+    _functions.push_back(form.form_integrals[i]->tabulate_tensor_float64);
   if (_functions.empty())
     throw std::runtime_error("forms: a form has no integral over its cells or "
                              "boundary facets");
@@ -108,8 +107,8 @@ void mid_gradient(bool axisymmetric, const double* w, const double* x,
                   double* G)
 {
   std::fill_n(G, 5, 0.0);
-  const ufcx_expression* e
-      = axisymmetric ? expression_strain_1 : expression_strain_0;
+  const ufcx_expression* e =
+      axisymmetric ? expression_strain_1 : expression_strain_0;
   e->tabulate_tensor_float64(G, w, nullptr, x, nullptr, nullptr);
 }
 } // namespace mmale::lagrangian

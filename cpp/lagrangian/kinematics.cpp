@@ -45,7 +45,7 @@ CellTangent tangent(const Gradient& G, const Motion& m, const Response& law,
                     const Voigt& s, double p, bool geometric)
 {
   const Gradient2 Q = mid_from_end(G);
-  Eigen::Matrix<double, 4, 5> deviator; // of the strain, by G
+  Eigen::Matrix<double, 4, 5> deviator;       // of the strain, by G
   deviator << 2. / 3, 0, 0, -1. / 3, -1. / 3, //
       -1. / 3, 0, 0, 2. / 3, -1. / 3,         //
       -1. / 3, 0, 0, -1. / 3, 2. / 3,         //
@@ -53,12 +53,12 @@ CellTangent tangent(const Gradient& G, const Motion& m, const Response& law,
   const Eigen::RowVector<double, 5> spin{0, -0.5, 0.5, 0, 0};
 
   // half a step's rotation, by G
-  const Eigen::RowVector<double, 5> angle
-      = spin * (0.5 / (1 + 0.25 * m.spin * m.spin)) * Q;
+  const Eigen::RowVector<double, 5> angle =
+      spin * (0.5 / (1 + 0.25 * m.spin * m.spin)) * Q;
   // An isotropic law turns with its input; so turning the start stress alone
   // is turning the answer, and the strain back.
-  const Eigen::Matrix<double, 4, 5> de
-      = deviator * Q - spun_strain(m.de) * angle;
+  const Eigen::Matrix<double, 4, 5> de =
+      deviator * Q - spun_strain(m.de) * angle;
   const Eigen::Matrix<double, 4, 5> ds_mid = law.ds_de * de;
 
   CellTangent t;

@@ -70,7 +70,8 @@ void Problem::create_matrix()
     local[n] = n;
   map.local_to_global(local, global);
   std::vector<PetscInt> row, column;
-  const std::size_t entries = 81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
+  const std::size_t entries =
+      81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
   row.reserve(entries);
   column.reserve(entries);
   for (int c = 0; c < _domain.num_owned_cells; ++c)
@@ -79,7 +80,8 @@ void Problem::create_matrix()
       {
         const auto& nodes = _domain.cells[c];
         row.push_back(static_cast<PetscInt>(3 * global[nodes[i / 3]] + i % 3));
-        column.push_back(static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
+        column.push_back(
+            static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
       }
   for (PetscInt i = 0; i < rows; ++i)
   {
@@ -116,6 +118,8 @@ void Problem::create_solver()
   SNESGetKSP(_snes, &ksp);
   KSPSetType(ksp, KSPPREONLY);
   KSPGetPC(ksp, &pc);
+  KSPSetPreSolve(ksp, before_solve, this);
+  KSPSetPostSolve(ksp, after_solve, this);
   PCSetType(pc, PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
   if (not _options.petsc.empty())
@@ -193,7 +197,8 @@ void Problem::assemble_loads(std::span<double> force)
       const auto& nodes = _domain.cells[f.cell];
       for (int v = 0; v < 3; ++v)
         for (int d = 0; d < 2; ++d)
-          x[3 * v + d] = _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
+          x[3 * v + d] =
+              _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
       _load_R(R, {}, c, x, f.local);
       for (int i = 0; i < 9; ++i)
         force[3 * nodes[i / 3] + i % 3] += R[i];
@@ -215,7 +220,8 @@ void Problem::load_jacobian(int cell, double* J) const
     const auto& nodes = _domain.cells[cell];
     for (int v = 0; v < 3; ++v)
       for (int d = 0; d < 2; ++d)
-        x[3 * v + d] = _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
+        x[3 * v + d] =
+            _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
     _load_J(A, {}, c, x, f.local);
     for (int i = 0; i < 9; ++i)
       for (int j = 0; j < 9; ++j)
@@ -245,6 +251,12 @@ void Problem::assemble_residual(double* r)
   }
   assemble_loads(force);
   _force.scatter_rev(std::plus<double>());
+  if (not _contact->empty() and _contact_changes < max_contact_changes
+      and _contact->update(_state->x, z, force, _stress))
+  {
+    ++_contact_changes;
+    hold();
+  }
 
   double norm[3] = {0, 0, 0};
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
@@ -265,7 +277,8 @@ void Problem::assemble_residual(double* r)
   const double tiny = 1e-16 * _length * _stress;
   _norm_u = std::sqrt(all[0] / (all[3] + tiny * tiny));
   _norm_p = std::sqrt(all[1] / all[4]);
-  _norm_bc = all[2] > 0 ? std::sqrt(all[2] / (all[5] + 1e-32 * _length * _length)) : 0;
+  _norm_bc =
+      all[2] > 0 ? std::sqrt(all[2] / (all[5] + 1e-32 * _length * _length)) : 0;
 }
 
 PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
@@ -307,17 +320,33 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
         A[9 * i + j] *= held ? 0 : row[i % 3 == 2] * column[j % 3 == 2];
     }
   }
-  double* diagonal
-      = self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
+  double* diagonal =
+      self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
   for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
     diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
   PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode Problem::before_solve(KSP, Vec, Vec, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  self._solving.reset(
+      new output::Clock::Scope(self._clock.scope("1b factorise and solve")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::after_solve(KSP, Vec, Vec, void* context)
+{
+  PetscFunctionBeginUser;
+  static_cast<Problem*>(context)->_solving.reset();
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /// Shorten a Newton step that would invert a cell.
-PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y,
-                                 PetscBool* changed, void* context)
+PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y, PetscBool* changed,
+                                 void* context)
 {
   PetscFunctionBeginUser;
   auto& self = *static_cast<Problem*>(context);
@@ -372,8 +401,7 @@ PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
   *reason = SNES_CONVERGED_ITERATING;
   if (not std::isfinite(fnorm))
     *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (self._norm_u <= tol and self._norm_p <= tol
-           and self._norm_bc <= tol)
+  else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
   void* log = nullptr;
   PetscCall(SNESGetApplicationContext(snes, &log));
@@ -398,8 +426,9 @@ void Problem::name_worst(NewtonLog& log)
   const auto force = _force.array();
   for (int n = 0; n < _domain.num_owned_nodes; ++n)
   {
-    const double f = std::hypot(_holder[3 * n] < 0 ? force[3 * n] : 0.0,
-                                _holder[3 * n + 1] < 0 ? force[3 * n + 1] : 0.0);
+    const double f =
+        std::hypot(_holder[3 * n] < 0 ? force[3 * n] : 0.0,
+                   _holder[3 * n + 1] < 0 ? force[3 * n + 1] : 0.0);
     if (f > worst.force)
     {
       worst.force = f;
@@ -421,6 +450,8 @@ void Problem::name_worst(NewtonLog& log)
 void Problem::prepare(const State& state, double t0, double t1)
 {
   _state = &state;
+  _t0 = t0;
+  _t1 = t1;
   _loads = _conditions->loads(t1);
   const auto g = _conditions->gravity(t1);
   _constants.dt = t1 - t0;
@@ -439,23 +470,21 @@ void Problem::prepare(const State& state, double t0, double t1)
 }
 
 /// What is held in this step: the stage's conditions, and contact.
-void Problem::hold(double t0, double t1)
+void Problem::hold()
 {
-  _conditions->increments(t0, t1, _increment);
+  _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
 }
 
 /// First iterate of Newton.
-void Problem::start(Start from, double dt)
+void Problem::start(Start from)
 {
-  const auto z = _z.array();
+  const double dt = _t1 - _t0;
   PetscScalar* x = nullptr;
   VecGetArray(_x, &x);
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
-    if (from == Start::here)
-      x[i] = i % 3 == 2 ? z[i] * _length / _stress : z[i];
-    else if (i % 3 == 2)
+    if (i % 3 == 2)
       x[i] = _state->p[i / 3] * _length / _stress;
     else if (from == Start::rest)
       x[i] = 0;
@@ -481,20 +510,19 @@ bool Problem::newton(NewtonLog& log)
   return reason > 0;
 }
 
-/// Newton, and again while nodes come to or leave a wall.
-bool Problem::equilibrium(Start from, double t0, double t1, NewtonLog& log)
+/// Newton; the set of nodes in contact settles on the way. A set that goes on
+/// changing is frozen, and has to prove itself afterwards.
+bool Problem::equilibrium(Start from, NewtonLog& log)
 {
-  _contact->begin_step(_state->x, t0, t1);
-  for (int round = 0; round < max_contact_rounds; ++round)
-  {
-    hold(t0, t1);
-    start(round == 0 ? from : Start::here, t1 - t0);
-    if (not newton(log))
-      return false;
-    if (_contact->empty()
-        or not _contact->update(_state->x, _z.array(), _force.array()))
-      return true;
-  }
+  _contact->begin_step(_state->x, _t0, _t1);
+  _contact_changes = 0;
+  hold();
+  start(from);
+  if (not newton(log))
+    return false;
+  if (_contact->empty()
+      or not _contact->update(_state->x, _z.array(), _force.array(), _stress))
+    return true;
   agree_on_failure(0, "contact with a wall did not settle");
   log.failure = _failure;
   return false;
@@ -504,9 +532,8 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
 {
   const auto scope = _clock.scope("1 lagrangian");
   prepare(state, t0, t1);
-  const bool solved
-      = (not _guess.empty() and equilibrium(Start::guess, t0, t1, log))
-        or equilibrium(Start::rest, t0, t1, log);
+  const bool solved = (not _guess.empty() and equilibrium(Start::guess, log))
+                      or equilibrium(Start::rest, log);
   _guess.clear();
   if (not solved)
     return false;
@@ -522,8 +549,8 @@ std::vector<std::array<double, 2>> Problem::reactions() const
 {
   std::vector<double> sum(2 * _domain.boundary_names.size(), 0);
   const auto force = _force.array();
-  const double turn
-      = _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
+  const double turn =
+      _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
     if (_holder[i] >= 0)
       sum[2 * _holder[i] + i % 3] += turn * force[i];

@@ -6,6 +6,7 @@
 #include "output/clock.h"
 #include <array>
 #include <dolfinx/la/Vector.h>
+#include <memory>
 #include <petscsnes.h>
 #include <string>
 
@@ -16,7 +17,7 @@ namespace mmale::lagrangian
 struct Failure
 {
   std::string cause;
-  std::int64_t cell = -1;              ///< number in the grid
+  std::int64_t cell = -1;               ///< number in the grid
   std::array<double, 2> place = {0, 0}; ///< its centre [m]
 };
 
@@ -62,6 +63,8 @@ public:
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);
   static PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*);
+  static PetscErrorCode before_solve(KSP, Vec, Vec, void*);
+  static PetscErrorCode after_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
   static PetscErrorCode converged(SNES, PetscInt, PetscReal, PetscReal,
                                   PetscReal, SNESConvergedReason*, void*);
@@ -79,16 +82,15 @@ private:
   enum class Start
   {
     guess, ///< the last step's motion, scaled
-    rest,  ///< no motion
-    here   ///< the last solution
+    rest   ///< no motion
   };
-  /// Changes of the contact set in a step. More: patience with flutter.
-  static constexpr int max_contact_rounds = 10;
+  /// Changes of the contact set in a step. Doubled: patience with flutter.
+  static constexpr int max_contact_changes = 10;
   void prepare(const State& state, double t0, double t1);
-  void hold(double t0, double t1);
-  void start(Start from, double dt);
+  void hold();
+  void start(Start from);
   bool newton(NewtonLog& log);
-  bool equilibrium(Start from, double t0, double t1, NewtonLog& log);
+  bool equilibrium(Start from, NewtonLog& log);
 
   const mesh::Domain& _domain;
   scene::Symmetry _symmetry;
@@ -100,22 +102,25 @@ private:
 
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;
-  std::vector<int> _holder;             ///< owned and ghost unknowns
-  std::vector<double> _increment;       ///< of held unknowns
-  std::vector<double> _guess;           ///< last step's increment
+  int _contact_changes = 0;       ///< in this step
+  double _t0 = 0, _t1 = 0;        ///< of this step
+  std::vector<int> _holder;       ///< owned and ghost unknowns
+  std::vector<double> _increment; ///< of held unknowns
+  std::vector<double> _guess;     ///< last step's increment
   double _guess_dt = 0;
   std::vector<Load> _loads;
   std::vector<std::vector<mesh::Facet>> _facets_of_cell; ///< loaded ones
   Constants _constants;
   std::array<double, 2> _gravity = {0, 0}; ///< at the end of the last step
 
-  const State* _state = nullptr;        ///< during a solve
-  dolfinx::la::Vector<double> _z;       ///< unknowns with units
-  dolfinx::la::Vector<double> _force;   ///< residual with units
+  const State* _state = nullptr;      ///< during a solve
+  dolfinx::la::Vector<double> _z;     ///< unknowns with units
+  dolfinx::la::Vector<double> _force; ///< residual with units
   std::vector<double> _coo;
   double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
+  std::unique_ptr<output::Clock::Scope> _solving; ///< while KSP works
 
   SNES _snes = nullptr;
   Mat _J = nullptr;

@@ -75,11 +75,13 @@ struct J2
 
     const double h = 1 + hardening / (3 * G);
     const double dgamma = (trial - radius) / (2 * G * h);
-    const double size = trial - 2 * G * dgamma; // |s| at the end
     const Voigt n = answer.s / trial;
     // n : de; with engineering shear n_xy counts once, as 2 n_xy eps_xy
     const Voigt dtrial_de = 2 * G * n;
     q[0] += std::sqrt(2.0 / 3.0) * dgamma;
+    // |s| at the end; trial - 2 G dgamma would lose the digits that a large
+    // step has before the point
+    const double size = yield_radius(q[0]);
     answer.s = size * n;
     const double keep = kind == TangentKind::consistent ? size / trial : 1;
     answer.ds_de = keep * D + ((1 - 1 / h) - keep) * n * dtrial_de.transpose();
@@ -87,8 +89,8 @@ struct J2
     const double flow = trial / size - 1;
     answer.flow = std::min(flow, max_flow);
     if (flow < max_flow)
-      answer.dflow_de
-          = (1 / size - trial / (size * size) * (1 - 1 / h)) * dtrial_de;
+      answer.dflow_de =
+          (1 / size - trial / (size * size) * (1 - 1 / h)) * dtrial_de;
     return Outcome::ok;
   }
 };

@@ -76,30 +76,31 @@ struct Parameter
 {
   std::string_view name;
   std::string_view unit;
-  double L::*value;
+  double L::* value;
   scene::Range range;
   std::string_view meaning;
 };
 
 template <class L>
-concept MaterialLaw
-    = std::is_aggregate_v<L>
-      and requires(const L law, const Increment& step, std::span<double> q,
-                   Response& answer, Eigen::Ref<Voigt> stress,
-                   std::span<const double> history) {
-            { L::name } -> std::convertible_to<std::string_view>;
-            // names of the history numbers of a point; also output fields
-            { L::history[0] } -> std::convertible_to<std::string_view>;
-            { L::parameters[0] } -> std::convertible_to<Parameter<L>>;
-            // advances q in place
-            { law.update(step, TangentKind{}, q, answer) }
-                -> std::same_as<Outcome>;
-            { law.shear_modulus() } -> std::same_as<double>; // at the start
-            { law.bulk_modulus() } -> std::same_as<double>;
-            { law.density } -> std::convertible_to<double>;
-            // brings a remapped state back; the part of it that was cut off
-            { law.admit(stress, history) } -> std::same_as<double>;
-            // beyond the ranges of single parameters; empty is good
-            { law.complaints() } -> std::same_as<std::vector<std::string>>;
-          };
+concept MaterialLaw =
+    std::is_aggregate_v<L>
+    and requires(const L law, const Increment& step, std::span<double> q,
+                 Response& answer, Eigen::Ref<Voigt> stress,
+                 std::span<const double> history) {
+          { L::name } -> std::convertible_to<std::string_view>;
+          // names of the history numbers of a point; also output fields
+          { L::history[0] } -> std::convertible_to<std::string_view>;
+          { L::parameters[0] } -> std::convertible_to<Parameter<L>>;
+          // advances q in place
+          {
+            law.update(step, TangentKind{}, q, answer)
+          } -> std::same_as<Outcome>;
+          { law.shear_modulus() } -> std::same_as<double>; // at the start
+          { law.bulk_modulus() } -> std::same_as<double>;
+          { law.density } -> std::convertible_to<double>;
+          // brings a remapped state back; the part of it that was cut off
+          { law.admit(stress, history) } -> std::same_as<double>;
+          // beyond the ranges of single parameters; empty is good
+          { law.complaints() } -> std::same_as<std::vector<std::string>>;
+        };
 } // namespace mmale::material

@@ -52,9 +52,8 @@ AnyLaw make_law(const std::string& name,
                        known = true;
                      }
                    if (not known)
-                     throw std::invalid_argument("law '" + name
-                                                 + "' has no parameter '" + key
-                                                 + "'");
+                     throw std::invalid_argument(
+                         "law '" + name + "' has no parameter '" + key + "'");
                  }
                  made = law;
                });

@@ -20,11 +20,11 @@ std::shared_ptr<dx::mesh::Mesh<double>> distribute(MPI_Comm comm,
                                                    const Grid& grid)
 {
   const bool root = dx::MPI::rank(comm) == 0;
-  const std::vector<std::int64_t> cells
-      = root ? grid.cells : std::vector<std::int64_t>();
+  const std::vector<std::int64_t> cells =
+      root ? grid.cells : std::vector<std::int64_t>();
   const std::vector<double> x = root ? grid.x : std::vector<double>();
-  const dx::mesh::CellPartitionFunction partitioner
-      = dx::MPI::size(comm) > 1 ? vertex_halo_partitioner() : nullptr;
+  const dx::mesh::CellPartitionFunction partitioner =
+      dx::MPI::size(comm) > 1 ? vertex_halo_partitioner() : nullptr;
   return std::make_shared<dx::mesh::Mesh<double>>(dx::mesh::create_mesh(
       comm, comm, std::span(cells),
       dx::fem::CoordinateElement<double>(dx::mesh::CellType::triangle, 1), comm,
@@ -81,8 +81,8 @@ int name_edge(const Domain& d,
               const std::map<std::string, scene::Boundary>& boundary,
               const std::string_view side, std::array<double, 2> midpoint)
 {
-  const double at = side == "bottom" or side == "top" ? midpoint[0]
-                                                      : midpoint[1];
+  const double at =
+      side == "bottom" or side == "top" ? midpoint[0] : midpoint[1];
   for (const auto& [name, b] : boundary)
     if (b.side == side and at > b.from and at < b.to)
       return d.boundary(name);

@@ -34,13 +34,13 @@ struct Domain
   MPI_Comm comm;
   std::shared_ptr<dolfinx::mesh::Mesh<double>> mesh;
   std::shared_ptr<const dolfinx::fem::FunctionSpace<double>> space; ///< P1
-  std::vector<std::array<int, 3>> cells;    ///< nodes, counter-clockwise
-  std::vector<std::int64_t> cell_id;        ///< number in the grid
-  std::vector<std::int64_t> node_id;        ///< number in the grid
-  std::vector<Facet> facets;                ///< of local cells, ghosts too
-  std::vector<std::string> boundary_names;  ///< named ones, then bare sides
-  std::vector<std::string> boundary_sides;  ///< side that each lies on
-  std::vector<double> initial_x;            ///< nodes, shape (n, 2) [m]
+  std::vector<std::array<int, 3>> cells;   ///< nodes, counter-clockwise
+  std::vector<std::int64_t> cell_id;       ///< number in the grid
+  std::vector<std::int64_t> node_id;       ///< number in the grid
+  std::vector<Facet> facets;               ///< of local cells, ghosts too
+  std::vector<std::string> boundary_names; ///< named ones, then bare sides
+  std::vector<std::string> boundary_sides; ///< side that each lies on
+  std::vector<double> initial_x;           ///< nodes, shape (n, 2) [m]
   int num_owned_cells = 0;
   int num_owned_nodes = 0;
 

@@ -54,8 +54,8 @@ dolfinx::mesh::CellPartitionFunction vertex_halo_partitioner()
       const std::int32_t own = owner.links(c)[0];
       ghosts.clear();
       for (int v = 0; v < 3; ++v)
-        for (auto it = std::ranges::lower_bound(
-                 at, Pair{vertices[3 * c + v], -1});
+        for (auto it =
+                 std::ranges::lower_bound(at, Pair{vertices[3 * c + v], -1});
              it != at.end() and (*it)[0] == vertices[3 * c + v]; ++it)
           if ((*it)[1] != own)
             ghosts.push_back(static_cast<std::int32_t>((*it)[1]));

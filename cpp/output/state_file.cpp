@@ -38,8 +38,8 @@ private:
 };
 } // namespace
 
-void write_state(const std::filesystem::path& file,
-                 const mesh::Domain& domain, const State& state)
+void write_state(const std::filesystem::path& file, const mesh::Domain& domain,
+                 const State& state)
 {
   std::filesystem::path part = file;
   part += ".part";
@@ -61,8 +61,7 @@ void write_state(const std::filesystem::path& file,
     write.rows("density", state.density, cells);
     const std::size_t h = state.history.size() / state.P.size();
     if (h > 0)
-      write.rows("history", state.history, cells,
-                 static_cast<std::int64_t>(h));
+      write.rows("history", state.history, cells, static_cast<std::int64_t>(h));
   }
   for (const auto& [name, values] : state.tracer)
     write.rows("tracer_" + name, values, cells);

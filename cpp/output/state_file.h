@@ -15,6 +15,6 @@ namespace mmale::output
 /// does not have is left out.
 ///
 /// @throws std::runtime_error on all ranks, naming the file
-void write_state(const std::filesystem::path& file,
-                 const mesh::Domain& domain, const State& state);
+void write_state(const std::filesystem::path& file, const mesh::Domain& domain,
+                 const State& state);
 } // namespace mmale::output

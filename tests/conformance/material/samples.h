@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "material/library.h"
+#include <array>
+#include <random>
+#include <vector>
+
+/// Parameters and scales for the conformance tests of the laws, and random
+/// tensors in the components xx, yy, zz, xy.
+namespace mmale::test
+{
+using material::Voigt;
+
+/// One set of parameters of a law, with the sizes that its curves have.
+struct Sample
+{
+  std::string law;
+  std::map<std::string, double> parameters;
+  double strain;   ///< over which its answer bends [-]
+  double pressure; ///< likewise [Pa]
+};
+
+/// A law without a sample here fails the tests. Moduli over many decades: a
+/// law must not hide an absolute size.
+inline const std::vector<Sample> samples{
+    {"elastic", {{"E", 2.6e6}, {"nu", 0.3}, {"density", 1e3}}, 1e-2, 2e4},
+    {"elastic", {{"E", 2e11}, {"nu", 0.4999}, {"density", 7.8e3}}, 1e-3, 2e8},
+    {"j2",
+     {{"E", 2.6e6}, {"nu", 0.3}, {"yield_stress", 2e4}, {"hardening", 0},
+      {"density", 1e3}},
+     1e-2, 2e4},
+    {"j2",
+     {{"E", 2.1e11}, {"nu", 0.29}, {"yield_stress", 3e8}, {"hardening", 4e9},
+      {"density", 7.8e3}},
+     1.9e-3, 3e8},
+    {"j2",
+     {{"E", 1.0}, {"nu", 0.4999}, {"yield_stress", 1e-3}, {"hardening", 0.1},
+      {"density", 1.0}},
+     1.5e-3, 1e-3},
+};
+
+/// Random numbers that any machine draws alike.
+class Random
+{
+public:
+  explicit Random(unsigned seed) : _engine(seed) {}
+
+  /// In (-1, 1).
+  double unit() { return 2.0 * (_engine() >> 11) / (1ull << 53) - 1.0; }
+
+  /// A deviator; `shear` is the factor of the xy component.
+  Voigt deviator(double size, double shear = 1)
+  {
+    const double x = unit(), y = unit(), z = unit();
+    const double mean = (x + y + z) / 3;
+    return size * Voigt(x - mean, y - mean, z - mean, shear * unit());
+  }
+
+private:
+  std::mt19937_64 _engine;
+};
+} // namespace mmale::test
