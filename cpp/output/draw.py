@@ -7,6 +7,7 @@
     draw.py sweep FOLDER RUN RUN ...
         each chart and each picture of a field with all the runs of a sweep
     draw.py compare FOLDER FOLDER ... -o PICTURE.png [--x NAME] [--y NAME]
+            [--labels NAME ...]
         one curve of several runs in one chart, with the reference line
 
 Reads curves.csv and the ASCII field files (.pvd, .pvtu, .vtu) of the run.
@@ -119,7 +120,7 @@ def sweep(folder, members):
         raise Trouble("; ".join(failed))
 
 
-def compare(folders, output, x_name=None, y_name=None):
+def compare(folders, output, x_name=None, y_name=None, labels=None):
     """One curve of several runs in one chart."""
     plan = read_plan(folders[0])
     chart = next((c for c in plan["charts"] if c["references"]), None)
@@ -136,7 +137,7 @@ def compare(folders, output, x_name=None, y_name=None):
         chart = {"x": x_name, "y": [y_name], "references": []}
     runs = {
         label: read_curves(folder)
-        for label, folder in zip(run_labels(folders), folders)
+        for label, folder in zip(labels or run_labels(folders), folders)
     }
     for folder, curves in zip(folders, runs.values()):
         column(curves, x_name, folder / "curves.csv")
@@ -154,6 +155,7 @@ def main(arguments=None):
     many.add_argument("-o", "--output", type=Path, required=True)
     many.add_argument("--x", help="name of the abscissa")
     many.add_argument("--y", help="name of the curve")
+    many.add_argument("--labels", nargs="+", help="names of the runs, in order")
     all_of = verbs.add_parser("sweep", help="all pictures of a sweep")
     all_of.add_argument("folder", type=Path, help="where to write them")
     all_of.add_argument("runs", type=Path, nargs="+")
@@ -165,7 +167,13 @@ def main(arguments=None):
             elif options.verb == "sweep":
                 sweep(options.folder, options.runs)
             else:
-                compare(options.folders, options.output, options.x, options.y)
+                compare(
+                    options.folders,
+                    options.output,
+                    options.x,
+                    options.y,
+                    options.labels,
+                )
         except Trouble as trouble:
             sys.exit(str(trouble))
 
