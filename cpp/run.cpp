@@ -170,8 +170,6 @@ bool Run::stage(const scene::Stage& stage)
   const auto outputs = marks(begin, stage.duration);
   if (_sim.problem)
     _sim.problem->set_stage(stage);
-  if (_sim.remap)
-    _sim.remap->set_stage(stage);
   while (not control.finished())
   {
     StepLog log;
