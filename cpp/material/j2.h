@@ -89,8 +89,8 @@ struct J2
     const double flow = trial / size - 1;
     answer.flow = std::min(flow, max_flow);
     if (flow < max_flow)
-      answer.dflow_de
-          = (1 / size - trial / (size * size) * (1 - 1 / h)) * dtrial_de;
+      answer.dflow_de =
+          (1 / size - trial / (size * size) * (1 - 1 / h)) * dtrial_de;
     return Outcome::ok;
   }
 };
