@@ -179,7 +179,7 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
-  placement.emplace(domain, scene.remap.surface);
+  placement.emplace(domain, mesh, scene.remap.surface);
   home = domain.initial_x;
   flags.resize(mesh.num_nodes());
   find_spacing();
@@ -251,9 +251,15 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   auto outcome = ::remap::Outcome::inverted_start;
   if (whole)
   {
+    // the surface first, so that the body follows it where it will be
     constraints.kinds = placement->kinds_placed();
-    x = placement->start(state.x, home);
-    outcome = smoothing->smooth(x, flags, constraints, host);
+    x = state.x;
+    outcome = smoothing->smooth(x, placement->on_surface(), constraints, host);
+    if (outcome == ::remap::Outcome::ok)
+    {
+      x = placement->start(x, home);
+      outcome = smoothing->smooth(x, flags, constraints, host);
+    }
   }
   if (outcome != ::remap::Outcome::ok)
   {
