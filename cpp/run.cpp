@@ -189,7 +189,7 @@ bool Run::stage(const scene::Stage& stage)
       _progress.note("remap left out: " + log.remap.trouble);
     _summary.remaps += log.remap.done;
     ++_summary.steps;
-    control.accepted(log.newton.iterations);
+    control.accepted(static_cast<int>(log.newton.residuals.size()) - 1);
     _sim.state.time = begin + control.time();
     _monitor.after_step(t1 - t0);
     record(t1 - t0, log);

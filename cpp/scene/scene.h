@@ -195,6 +195,8 @@ struct Tracer
   double radius = required;            ///< [m]
   double inside = 1;
   double outside = 0; ///< also what flows in through open boundaries
+  std::string cut_cells = "share"; ///< cells that the circle cuts: mixed by
+                                   ///< "share" of area, or as their "centre"
 };
 
 /// A prescribed rigid rotation instead of a Lagrangian step.

@@ -152,6 +152,12 @@ void keys(V& v, Tracer& t)
   v({"radius", "m", "Radius of the circle.", above(0)}, t.radius);
   v({"inside", "-", "Value inside the region."}, t.inside);
   v({"outside", "-", "Value outside, also of what flows in."}, t.outside);
+  v({"cut_cells",
+     "",
+     "Cells that the circle cuts: a mean by area, or what their centre has.",
+     {},
+     {"share", "centre"}},
+    t.cut_cells);
 }
 
 template <class V>
