@@ -170,8 +170,6 @@ bool Run::stage(const scene::Stage& stage)
   const auto outputs = marks(begin, stage.duration);
   if (_sim.problem)
     _sim.problem->set_stage(stage);
-  if (_sim.remap)
-    _sim.remap->set_stage(stage);
   while (not control.finished())
   {
     StepLog log;
@@ -191,7 +189,7 @@ bool Run::stage(const scene::Stage& stage)
       _progress.note("remap left out: " + log.remap.trouble);
     _summary.remaps += log.remap.done;
     ++_summary.steps;
-    control.accepted(log.newton.iterations);
+    control.accepted(static_cast<int>(log.newton.residuals.size()) - 1);
     _sim.state.time = begin + control.time();
     _monitor.after_step(t1 - t0);
     record(t1 - t0, log);

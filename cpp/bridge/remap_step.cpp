@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "placement.h"
 #include "remap/quality/quality.h"
 #include "remap/remap.h"
 #include "remap/smoothing/smooth.h"
@@ -136,7 +137,6 @@ struct RemapStep::Impl
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void make_admissible(State& state, RemapLog& log);
   void find_spacing();
-  std::vector<double> at_home(const std::vector<double>& moved) const;
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -149,8 +149,8 @@ struct RemapStep::Impl
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
   ::remap::Ledger ledger;
 
-  std::vector<::remap::Kind> kinds;
-  std::vector<double> direction, spacing;
+  std::optional<Placement> placement;
+  std::vector<double> spacing;
   std::vector<::remap::quality::Target> targets;
   std::vector<std::uint8_t> flags;
   bool whole = false;       // this remap is of the whole mesh
@@ -179,6 +179,7 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
+  placement.emplace(domain, mesh, scene.remap.surface);
   home = domain.initial_x;
   flags.resize(mesh.num_nodes());
   find_spacing();
@@ -215,32 +216,6 @@ RemapStep::RemapStep(const mesh::Domain& domain, const scene::Scene& scene,
 
 RemapStep::~RemapStep() = default;
 
-void RemapStep::set_stage(const scene::Stage&)
-{
-  // Nodes of one boundary slide along it, or stay on a free surface; where two
-  // boundaries meet a node stays with the material.
-  Impl& m = *_impl;
-  if (not m.smoothing)
-    return;
-  m.kinds.assign(m.mesh.num_nodes(), ::remap::Kind::free);
-  m.direction.assign(2 * m.mesh.num_nodes(), 0);
-  for (std::size_t b = 0; b < m.domain.boundary_names.size(); ++b)
-    for (int n : m.domain.boundary_nodes(static_cast<int>(b)))
-      m.kinds[n] = m.kinds[n] != ::remap::Kind::free ? ::remap::Kind::fixed
-                   : among(m.scene.remap.surface, m.domain.boundary_names[b])
-                       ? ::remap::Kind::surface
-                       : ::remap::Kind::slide;
-  for (const mesh::Facet& f : m.domain.facets)
-    for (int d = 0; d < 2; ++d)
-    {
-      const double along =
-          m.domain.initial_x[2 * f.b + d] - m.domain.initial_x[2 * f.a + d];
-      m.direction[2 * f.a + d] += along;
-      m.direction[2 * f.b + d] += along;
-    }
-  m.host.update_nodes(m.direction, 2);
-}
-
 bool RemapStep::due(const State& state, int number)
 {
   Impl& m = *_impl;
@@ -269,51 +244,32 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
     x = domain.initial_x;
     return true;
   }
-  const ::remap::Constraints constraints{.kinds = kinds,
-                                         .direction = direction,
-                                         .spacing = spacing,
-                                         .targets = targets};
+  ::remap::Constraints constraints{.kinds = placement->kinds(),
+                                   .direction = placement->direction(),
+                                   .spacing = spacing,
+                                   .targets = targets};
   auto outcome = ::remap::Outcome::inverted_start;
   if (whole)
   {
-    x = at_home(state.x);
-    outcome = smoothing->smooth(x, flags, constraints, host);
+    // the surface first, so that the body follows it where it will be
+    constraints.kinds = placement->kinds_placed();
+    x = state.x;
+    outcome = smoothing->smooth(x, placement->on_surface(), constraints, host);
+    if (outcome == ::remap::Outcome::ok)
+    {
+      x = placement->start(x, home);
+      outcome = smoothing->smooth(x, flags, constraints, host);
+    }
   }
   if (outcome != ::remap::Outcome::ok)
   {
+    constraints.kinds = placement->kinds();
     x = state.x;
     outcome = smoothing->smooth(x, flags, constraints, host);
   }
   if (outcome != ::remap::Outcome::ok)
     log.trouble = ::remap::describe(outcome);
   return outcome == ::remap::Outcome::ok;
-}
-
-/// Where smoothing of the whole mesh starts: inner nodes where they were after
-/// the last remap, nodes of walls likewise but for the wall's own motion, so
-/// that the mesh follows the boundary and does not drift with the flow.
-std::vector<double>
-RemapStep::Impl::at_home(const std::vector<double>& moved) const
-{
-  std::vector<double> x = moved;
-  for (std::size_t n = 0; n < kinds.size(); ++n)
-  {
-    const auto was = ::remap::point(home, static_cast<int>(n)),
-               is = ::remap::point(moved, static_cast<int>(n));
-    auto start = is;
-    if (kinds[n] == ::remap::Kind::free)
-      start = was;
-    else if (kinds[n] == ::remap::Kind::slide)
-    {
-      const ::remap::Point along{direction[2 * n], direction[2 * n + 1]};
-      start = is
-              + (::remap::dot(was - is, along) / ::remap::dot(along, along))
-                    * along;
-    }
-    x[2 * n] = start.x;
-    x[2 * n + 1] = start.y;
-  }
-  return x;
 }
 
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,

@@ -53,9 +53,6 @@ public:
             const std::optional<material::AnyLaw>& law, output::Clock& clock);
   ~RemapStep();
 
-  /// The stage decides which boundaries are walls. Collective.
-  void set_stage(const scene::Stage& stage);
-
   /// Is it time? Collective.
   /// @param[in] number of the step in the run, from 1
   bool due(const State& state, int number);

@@ -15,6 +15,9 @@ Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
     size = std::max(size, std::abs(x));
   MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, domain.comm);
   _gap = 1e-9 * size;
+  // The remap moves surface nodes along chords; a curved surface so leaves a
+  // rough wall by this much, and is still held.
+  _reach = 1e-3 * size;
   for (std::size_t w = 0; w < _walls.size(); ++w)
     for (int n : domain.boundary_nodes(_walls[w].boundary))
       if (conditions.holder()[3 * n] < 0) // a punch's corner is the punch's
@@ -30,7 +33,8 @@ void Contact::begin_step(std::span<const double> x, double t0, double t1)
   for (Candidate& c : _candidates)
   {
     const Wall& wall = _walls[c.wall];
-    c.held = wall.sign * (x[2 * c.node] - wall.x) <= _gap;
+    c.held = wall.sign * (x[2 * c.node] - wall.x)
+             <= (wall.rough ? _reach : _gap);
   }
 }
 

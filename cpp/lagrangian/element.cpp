@@ -71,6 +71,13 @@ double Element::density() const
   return std::visit([](const auto& l) { return l.density; }, _law);
 }
 
+double Element::force_squared(const State& state, int c) const
+{
+  const double s = material::norm(Voigt(state.s.data() + 4 * c));
+  const double side = std::pow(_volume[c], _axisymmetric ? 2. / 3 : 0.5);
+  return (s * s + state.P[c] * state.P[c]) * side * side;
+}
+
 double Element::strain_squared(int c) const
 {
   const Cell& cell = _cell[c];

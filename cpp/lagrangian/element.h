@@ -52,6 +52,9 @@ public:
   double volume(int cell) const { return _volume[cell]; }
   double ln_J(int cell) const { return _cell[cell].motion.ln_J; }
   double theta(int cell) const { return _cell[cell].answer.theta; }
+  /// Square of a nodal force from the stress at the start of the step, the
+  /// measure for the forces left over [N²/m² or N²/rad²].
+  double force_squared(const State& state, int cell) const;
   /// Square of the step's strain, a measure for the volume equation [-].
   double strain_squared(int cell) const;
 

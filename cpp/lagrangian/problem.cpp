@@ -246,6 +246,8 @@ void Problem::assemble_residual(double* r)
       if (i % 3 != 2)
         size[0] += R[i] * R[i];
     }
+    // and what the cell brought along: a step may end without stress
+    size[0] += _element.force_squared(*_state, c);
     const double V = _element.volume(c) / 3;
     size[1] += 3 * V * V * (1e-32 + _element.strain_squared(c));
   }

@@ -9,8 +9,8 @@
 
 using namespace mmale;
 using namespace mmale::material;
-using mmale::test::Random;
 using Catch::Approx;
+using mmale::test::Random;
 
 namespace
 {
@@ -28,8 +28,8 @@ struct Point
 
 J2 law(double H = hardening)
 {
-  return {.E = E, .nu = nu, .yield_stress = yield, .hardening = H,
-          .density = 7800};
+  return {
+      .E = E, .nu = nu, .yield_stress = yield, .hardening = H, .density = 7800};
 }
 
 Response advance(const J2& law, Point& point, const Voigt& de, double p)
@@ -58,8 +58,7 @@ TEST_CASE("J2 in pure shear follows its two straight lines",
     advance(law(), point, {0, 0, 0, gamma / steps}, 0);
   const double tau_y = yield / std::numbers::sqrt3;
   const double elastic = std::min(gamma, tau_y / G);
-  const double tau
-      = G * elastic + (gamma - elastic) / (1 / G + 3 / hardening);
+  const double tau = G * elastic + (gamma - elastic) / (1 / G + 3 / hardening);
   CHECK(point.s[3] == Approx(tau).epsilon(1e-13));
   CHECK(point.s.head<3>().norm() == 0);
   CHECK(point.plastic_strain
@@ -104,10 +103,10 @@ TEST_CASE("J2 turns its stress towards the strain rate on the exact curve",
                      * (std::cos(psi_0) * along + std::sin(psi_0) * across)};
     for (int k = 0; k < steps; ++k)
       advance(law(0), point, path / steps * along, 0);
-    const double psi
-        = std::atan2(point.s[3] * std::numbers::sqrt2, point.s.dot(along));
-    const double exact
-        = 2 * std::atan(std::tan(psi_0 / 2) * std::exp(-2 * G * path / radius));
+    const double psi =
+        std::atan2(point.s[3] * std::numbers::sqrt2, point.s.dot(along));
+    const double exact =
+        2 * std::atan(std::tan(psi_0 / 2) * std::exp(-2 * G * path / radius));
     errors[level] = std::abs(psi - exact);
     CHECK(norm(point.s) == Approx(radius).epsilon(1e-14));
   }
@@ -124,8 +123,8 @@ TEST_CASE("J2 never leaves its cylinder", "[conformance][material]")
   for (int k = 0; k < 2000; ++k)
   {
     advance(law(), point, random.deviator(5e-3, 2), 1e8 * random.unit());
-    const double radius
-        = std::sqrt(2.0 / 3.0) * (yield + hardening * point.plastic_strain);
+    const double radius =
+        std::sqrt(2.0 / 3.0) * (yield + hardening * point.plastic_strain);
     CHECK(norm(point.s) <= radius * (1 + 4 * eps));
     CHECK(point.plastic_strain >= plastic);
     plastic = point.plastic_strain;
@@ -144,8 +143,7 @@ TEST_CASE("J2's flow measures the plastic strain along the stress",
   for (int k = 0; k < 500; ++k)
   {
     const double before = point.plastic_strain;
-    const double flow
-        = advance(law(), point, random.deviator(4e-3, 2), 0).flow;
+    const double flow = advance(law(), point, random.deviator(4e-3, 2), 0).flow;
     const double expected = (point.plastic_strain - before) * 2 * G
                             / (std::sqrt(2.0 / 3.0) * norm(point.s));
     // the difference of two plastic strains of order 1 loses 13 digits of 16
@@ -179,8 +177,7 @@ TEST_CASE("the volume strain of a law is its pressure over the bulk modulus",
           "[conformance][material]")
 {
   Point point{.p = -2e7};
-  const double theta
-      = advance(law(), point, {1e-3, -1e-3, 0, 0}, 5e7).theta;
+  const double theta = advance(law(), point, {1e-3, -1e-3, 0, 0}, 5e7).theta;
   CHECK(theta == Approx(-7e7 * 3 * (1 - 2 * nu) / E).epsilon(1e-14));
   CHECK(law().bulk_modulus() == Approx(K).epsilon(1e-14));
   CHECK(law().shear_modulus() == Approx(G).epsilon(1e-14));

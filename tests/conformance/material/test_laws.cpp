@@ -14,10 +14,10 @@
 
 using namespace mmale;
 using namespace mmale::material;
-using mmale::test::Random;
-using mmale::test::Sample;
 using Catch::Approx;
 using Catch::Matchers::ContainsSubstring;
+using mmale::test::Random;
+using mmale::test::Sample;
 
 namespace
 {
@@ -111,8 +111,8 @@ Eigen::Matrix2d matrix(const Voigt& s, double shear)
 Voigt turned(const Voigt& t, double angle, double shear)
 {
   const Eigen::Rotation2Dd R(angle);
-  const Eigen::Matrix2d m
-      = R.toRotationMatrix() * matrix(t, shear) * R.toRotationMatrix().transpose();
+  const Eigen::Matrix2d m = R.toRotationMatrix() * matrix(t, shear)
+                            * R.toRotationMatrix().transpose();
   return {m(0, 0), m(1, 1), t[2], m(0, 1) / shear};
 }
 
@@ -235,8 +235,7 @@ TEST_CASE("rotating the input rotates the output", "[conformance][material]")
     const Response a = update(law, start, de, p, q);
     Point other = start;
     other.s = turned(start.s, angle, 1);
-    const Response b
-        = update(law, other, turned(de, angle, 0.5), p, q_turned);
+    const Response b = update(law, other, turned(de, angle, 0.5), p, q_turned);
     const double size = 2 * shear_modulus(law) * sample.strain;
     // a few dozen operations on numbers of this size
     CHECK((b.s - turned(a.s, angle, 1)).norm() < 100 * eps * size);
@@ -281,16 +280,15 @@ TEST_CASE("random paths stay finite, deviatoric and within the law's range",
   for (int k = 0; k < 3000; ++k)
   {
     // from steps of a millionth of the yield strain to a thousand times it
-    const double size
-        = sample.strain * std::pow(10, 4.5 * random.unit() - 1.5);
+    const double size = sample.strain * std::pow(10, 4.5 * random.unit() - 1.5);
     advance(law, point, random.deviator(size, 2),
             sample.pressure * 10 * random.unit());
     finite = finite and point.s.allFinite()
-             and std::ranges::all_of(point.q, [](double v)
-                                     { return std::isfinite(v); });
+             and std::ranges::all_of(point.q,
+                                     [](double v) { return std::isfinite(v); });
     largest = std::max(largest, norm(point.s));
-    worst_trace = std::max(worst_trace,
-                           std::abs(point.s.head<3>().sum()) / largest);
+    worst_trace =
+        std::max(worst_trace, std::abs(point.s.head<3>().sum()) / largest);
     Voigt s = point.s;
     worst_cut = std::max(worst_cut, admit(law, s, point.q));
   }
@@ -326,8 +324,8 @@ TEST_CASE("admit brings any stress back, once", "[conformance][material]")
     const Voigt once = s;
     CHECK(admit(law, s, start.q) <= 4 * eps);
     CHECK((s - once).norm() <= 4 * eps * norm(once));
-    const Response a
-        = update(law, {once, start.p, start.q}, Voigt::Zero(), start.p);
+    const Response a =
+        update(law, {once, start.p, start.q}, Voigt::Zero(), start.p);
     CHECK((a.s - once).norm() <= 8 * eps * norm(once));
   }
 }

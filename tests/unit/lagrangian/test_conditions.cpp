@@ -7,8 +7,8 @@
 #include <catch2/catch_test_macros.hpp>
 
 using namespace mmale;
-using lagrangian::Conditions;
 using Catch::Approx;
+using lagrangian::Conditions;
 
 namespace
 {
@@ -53,8 +53,8 @@ TEST_CASE("a displacement is a place, a velocity its rate",
 {
   const mesh::Domain domain = square();
   scene::Stage stage;
-  stage.boundary["top"].displacement_x
-      = scene::TimeSeries{{0, 1, 2}, {0, 0.3, -0.1}};
+  stage.boundary["top"].displacement_x =
+      scene::TimeSeries{{0, 1, 2}, {0, 0.3, -0.1}};
   stage.boundary["right"].velocity_y = constant(2);
   stage.boundary["left"].velocity_x = scene::TimeSeries{{0, 10}, {0, 20}};
   const Conditions c(domain, stage);

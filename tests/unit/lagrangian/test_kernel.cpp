@@ -70,14 +70,12 @@ TEST_CASE("a form gets its coefficients and constants by name, in its order",
                         facets ? IntegralKind::facet : IntegralKind::cell);
     std::array<double, 10> A{1}; // added to, not overwritten
     kernel(A, input, c, x, 2);
-    CHECK(A
-          == std::array<double, 10>{8, 10, 11, 12, 13, 14, 0.5, 3, 4, 102});
+    CHECK(A == std::array<double, 10>{8, 10, 11, 12, 13, 14, 0.5, 3, 4, 102});
     Form other({"s", "rho"}, {"g", "dt"}, facets);
     A = {};
-    Kernel(other.form, facets ? IntegralKind::facet : IntegralKind::cell)(
-        A, input, c, x);
-    CHECK(A
-          == std::array<double, 10>{10, 11, 12, 13, 14, 7, 3, 4, 0.5, 100});
+    Kernel(other.form,
+           facets ? IntegralKind::facet : IntegralKind::cell)(A, input, c, x);
+    CHECK(A == std::array<double, 10>{10, 11, 12, 13, 14, 7, 3, 4, 0.5, 100});
   }
 }
 
@@ -85,11 +83,10 @@ TEST_CASE("a form that asks for an unknown coefficient is told which there are",
           "[unit][kernel]")
 {
   Form form({"w", "temperature"}, {"dt"});
-  CHECK_THROWS_WITH(Kernel(form.form, IntegralKind::cell),
-                    ContainsSubstring("coefficient")
-                        and ContainsSubstring("'temperature'")
-                        and ContainsSubstring("theta")
-                        and ContainsSubstring("rho"));
+  CHECK_THROWS_WITH(
+      Kernel(form.form, IntegralKind::cell),
+      ContainsSubstring("coefficient") and ContainsSubstring("'temperature'")
+          and ContainsSubstring("theta") and ContainsSubstring("rho"));
 }
 
 TEST_CASE("a form that asks for an unknown constant is told which there are",

@@ -63,8 +63,8 @@ Matrix2d in_plane(const Voigt& s)
 
 material::J2 metal()
 {
-  return {.E = 100, .nu = 0.3, .yield_stress = 10, .hardening = 5,
-          .density = 1};
+  return {
+      .E = 100, .nu = 0.3, .yield_stress = 10, .hardening = 5, .density = 1};
 }
 
 /// All that a step makes of a cell.
@@ -93,8 +93,8 @@ End take_step(const Gradient& G, const Voigt& s_n, double p_n, double p)
 TEST_CASE("a rigid rotation gives no strain and turns the stress exactly",
           "[unit][lagrangian]")
 {
-  const double angle
-      = degree * GENERATE(0.01, 1.0, 30.0, 90.0, 100.0, 150.0, 179.0, -77.0);
+  const double angle =
+      degree * GENERATE(0.01, 1.0, 30.0, 90.0, 100.0, 150.0, 179.0, -77.0);
   INFO("angle " << angle / degree << " degrees");
   // Half way the body is a line: it has shrunk by cos(angle / 2), and the
   // round-off of its nodes has grown by as much in each factor of G.
@@ -108,10 +108,9 @@ TEST_CASE("a rigid rotation gives no strain and turns the stress exactly",
   CHECK(std::abs(m.ln_J) < tolerance);
 
   const Voigt s(3, -1, -2, 5);
-  const Voigt turned
-      = rotate(rotate(s, m.cosine, m.sine), m.cosine, m.sine);
-  const Matrix2d exact
-      = rotation(angle) * in_plane(s) * rotation(angle).transpose();
+  const Voigt turned = rotate(rotate(s, m.cosine, m.sine), m.cosine, m.sine);
+  const Matrix2d exact =
+      rotation(angle) * in_plane(s) * rotation(angle).transpose();
   CHECK((in_plane(turned) - exact).norm() < tolerance * exact.norm());
   CHECK(turned[2] == s[2]);
 }
@@ -125,8 +124,8 @@ TEST_CASE("many rotations add up to one", "[unit][lagrangian]")
   Voigt s = start;
   for (int k = 0; k < steps; ++k)
     s = rotate(rotate(s, m.cosine, m.sine), m.cosine, m.sine);
-  const Matrix2d exact
-      = rotation(total) * in_plane(start) * rotation(total).transpose();
+  const Matrix2d exact =
+      rotation(total) * in_plane(start) * rotation(total).transpose();
   // each step adds its round-off and the error of its angle
   CHECK((in_plane(s) - exact).norm() < 8 * steps * eps * exact.norm());
 }
@@ -137,9 +136,9 @@ TEST_CASE("the logarithm of the volume keeps its digits at any strain",
   const double size = GENERATE(1e-15, 1e-12, 1e-8, 1e-3, 0.4);
   // a stretch along axes, whose logarithms add up
   const double a = size, b = 0.37 * size, c = -0.21 * size;
-  const Gradient G = (Gradient() << 2 * a / (2 + a), 0, 0, 2 * b / (2 + b),
-                      2 * c / (2 + c))
-                         .finished();
+  const Gradient G =
+      (Gradient() << 2 * a / (2 + a), 0, 0, 2 * b / (2 + b), 2 * c / (2 + c))
+          .finished();
   const double exact = std::log1p(a) + std::log1p(b) + std::log1p(c);
   CHECK(motion(G).ln_J == Approx(exact).epsilon(16 * eps).margin(0));
 }
@@ -165,7 +164,8 @@ TEST_CASE("a cell that inverts has no volume strain", "[unit][lagrangian]")
 {
   const Matrix2d mirror{{-0.5, 0}, {0, 1}};
   CHECK_FALSE(std::isfinite(motion(increment(mirror)).ln_J));
-  CHECK_FALSE(std::isfinite(motion(increment(Matrix2d::Identity(), -0.1)).ln_J));
+  CHECK_FALSE(
+      std::isfinite(motion(increment(Matrix2d::Identity(), -0.1)).ln_J));
 }
 
 TEST_CASE("simple shear follows Jaumann's sine, with errors of second order",
@@ -187,10 +187,9 @@ TEST_CASE("simple shear follows Jaumann's sine, with errors of second order",
       s += material::shear_stiffness(shear) * m.de;
       s = rotate(s, m.cosine, m.sine);
     }
-    const Voigt exact
-        = shear
-          * Voigt(1 - std::cos(gamma), std::cos(gamma) - 1, 0,
-                  std::sin(gamma));
+    const Voigt exact =
+        shear
+        * Voigt(1 - std::cos(gamma), std::cos(gamma) - 1, 0, std::sin(gamma));
     errors[level] = (s - exact).norm() / shear;
   }
   CAPTURE(gamma, errors[0], errors[1], errors[2], errors[3]);
@@ -227,10 +226,10 @@ TEST_CASE("the tangent is the derivative of stress and volume by the end's "
 
     const End end = take_step(increment(f, f_z), s_n, p_n, p);
     plastic += end.law.flow > 0;
-    const CellTangent t = tangent(increment(f, f_z), end.motion, end.law,
-                                  end.s, p, geometric);
-    const Gradient direction
-        = (Gradient() << h(0, 0), h(0, 1), h(1, 0), h(1, 1), h_z).finished();
+    const CellTangent t =
+        tangent(increment(f, f_z), end.motion, end.law, end.s, p, geometric);
+    const Gradient direction =
+        (Gradient() << h(0, 0), h(0, 1), h(1, 0), h(1, 1), h_z).finished();
 
     const auto at = [&](double x)
     {
@@ -242,8 +241,8 @@ TEST_CASE("the tangent is the derivative of stress and volume by the end's "
       if (geometric)
       {
         const double det = F.determinant() * F_z;
-        sigma = (sigma - p * Matrix2d::Identity()) * F.inverse().transpose()
-                * det;
+        sigma =
+            (sigma - p * Matrix2d::Identity()) * F.inverse().transpose() * det;
         sigma_z = (sigma_z - p) / F_z * det;
         volume *= det;
       }

@@ -12,8 +12,8 @@
 #include <set>
 
 using namespace mmale;
-using mesh::Domain;
 using Catch::Approx;
+using mesh::Domain;
 
 namespace
 {
@@ -102,9 +102,9 @@ TEST_CASE("named parts of a side are told from the rest of it",
           "[unit][domain]")
 {
   const Domain d = domain();
-  REQUIRE(d.boundary_names
-          == std::vector<std::string>{"punch", "bottom", "right", "top",
-                                      "left"});
+  REQUIRE(
+      d.boundary_names
+      == std::vector<std::string>{"punch", "bottom", "right", "top", "left"});
   // lengths over owned cells: 0.8 of the top lies at midpoints below 0.9
   std::vector<double> length(5), nodes(5);
   for (const auto& f : d.facets)

@@ -10,8 +10,8 @@
 #include <set>
 
 using namespace mmale;
-using mesh::Grid;
 using Catch::Approx;
+using mesh::Grid;
 
 namespace
 {
@@ -28,7 +28,8 @@ scene::Mesh rectangle(int nx, int ny)
 
 double area(const Grid& g, std::size_t cell)
 {
-  const auto x = [&](int v, int d) { return g.x[2 * g.cells[3 * cell + v] + d]; };
+  const auto x = [&](int v, int d)
+  { return g.x[2 * g.cells[3 * cell + v] + d]; };
   return 0.5
          * ((x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1))
             - (x(2, 0) - x(0, 0)) * (x(1, 1) - x(0, 1)));
@@ -54,8 +55,8 @@ std::map<std::array<int, 2>, int> diagonals(const Grid& g)
                    dy = g.x[2 * b + 1] - g.x[2 * a + 1];
       if (std::abs(dx * dy) > 0.5)
         out[{static_cast<int>(std::min(g.x[2 * a], g.x[2 * b])),
-             static_cast<int>(std::min(g.x[2 * a + 1], g.x[2 * b + 1]))}]
-            = dx * dy > 0 ? 1 : -1;
+             static_cast<int>(std::min(g.x[2 * a + 1], g.x[2 * b + 1]))}] =
+            dx * dy > 0 ? 1 : -1;
     }
   return out;
 }
@@ -69,8 +70,8 @@ TEST_CASE("a graded line fills its length, finest at its point and growing "
   const double towards = GENERATE(0.0, 0.5, 0.83, 1.5);
   const double radius = GENERATE(0.0, 0.06);
   INFO("towards " << towards << ", radius " << radius);
-  const auto line
-      = mesh::graded_line(length, size, towards, finest, growth, radius);
+  const auto line =
+      mesh::graded_line(length, size, towards, finest, growth, radius);
   CHECK(line.front() == 0);
   CHECK(line.back() == length);
   const auto at = std::ranges::find(line, towards);
@@ -132,8 +133,8 @@ TEST_CASE("distortion moves inner nodes only, by no more than its share",
   for (std::size_t n = 0; n < g.x.size() / 2; ++n)
   {
     const double x = even.x[2 * n], y = even.x[2 * n + 1];
-    const bool inner = x > -0.5 + 1e-9 and x < 1.5 - 1e-9 and y > 1 + 1e-9
-                       and y < 2.5 - 1e-9;
+    const bool inner =
+        x > -0.5 + 1e-9 and x < 1.5 - 1e-9 and y > 1 + 1e-9 and y < 2.5 - 1e-9;
     const double dx = std::abs(g.x[2 * n] - x),
                  dy = std::abs(g.x[2 * n + 1] - y);
     CHECK(dx <= 0.3 * 0.25 * (1 + 1e-12));
@@ -142,7 +143,7 @@ TEST_CASE("distortion moves inner nodes only, by no more than its share",
       CHECK(dx + dy == 0);
     largest = std::max({largest, dx, dy});
   }
-  CHECK(largest > 0.2 * 0.25); // it does distort
+  CHECK(largest > 0.2 * 0.25);        // it does distort
   CHECK(mesh::make_grid(m).x == g.x); // and always alike
 }
 
@@ -179,7 +180,7 @@ TEST_CASE("boundary edges close around the body, which lies on their left",
   for (const auto& [a, b, side] : g.edges)
   {
     next[a] = b;
-    CHECK(of_cells.contains({a, b})); // its cell goes the same way
+    CHECK(of_cells.contains({a, b}));       // its cell goes the same way
     CHECK_FALSE(of_cells.contains({b, a})); // and there is no other
     const double x = (g.x[2 * a] + g.x[2 * b]) / 2,
                  y = (g.x[2 * a + 1] + g.x[2 * b + 1]) / 2;
@@ -231,8 +232,8 @@ TEST_CASE("size and grading give the number of cells", "[unit][mesh]")
       corner = n;
   for (std::size_t n = 0; n < g.x.size() / 2; ++n)
     if (n != corner)
-      nearest = std::min(nearest, std::hypot(g.x[2 * n] - 0.5,
-                                             g.x[2 * n + 1] - 2.5));
+      nearest =
+          std::min(nearest, std::hypot(g.x[2 * n] - 0.5, g.x[2 * n + 1] - 2.5));
   CHECK(corner > 0); // the point is a node
   CHECK(nearest <= 0.02 * (1 + 1e-12));
   CHECK(nearest > 0.018);

@@ -30,9 +30,18 @@ Body::Body(scene::Scene scene)
 }
 Body::~Body() = default;
 
-State& Body::state() { return _parts->sim.state; }
-int Body::num_nodes() const { return _parts->sim.domain.num_nodes(); }
-int Body::num_cells() const { return _parts->sim.domain.num_cells(); }
+State& Body::state()
+{
+  return _parts->sim.state;
+}
+int Body::num_nodes() const
+{
+  return _parts->sim.domain.num_nodes();
+}
+int Body::num_cells() const
+{
+  return _parts->sim.domain.num_cells();
+}
 std::array<int, 3> Body::cell(int c) const
 {
   return _parts->sim.domain.cells[c];
@@ -116,7 +125,10 @@ void Body::accept(std::span<const double> z)
   _parts->element.accept(state(), z, 1);
 }
 
-double Body::volume(int c) const { return _parts->element.volume(c); }
+double Body::volume(int c) const
+{
+  return _parts->element.volume(c);
+}
 
 scene::Scene rectangle(double width, double height, int nx, int ny,
                        std::string law,

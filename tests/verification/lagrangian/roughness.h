@@ -42,8 +42,8 @@ inline double roughness(Body& body, const std::vector<double>& v)
   double sum = 0, count = 0;
   for (int n = 0; n < body.num_nodes(); ++n)
     if (inner(n)
-        and std::ranges::all_of(around[n], [&](const auto& p)
-                                { return inner(p.first); }))
+        and std::ranges::all_of(around[n],
+                                [&](const auto& p) { return inner(p.first); }))
     {
       sum += twice[n] * twice[n];
       ++count;

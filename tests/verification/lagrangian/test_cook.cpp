@@ -11,8 +11,8 @@
 #include <map>
 
 using namespace mmale;
-using test::Body;
 using Catch::Approx;
+using test::Body;
 
 namespace
 {
@@ -21,9 +21,8 @@ constexpr double E = 1e9, nu = 0.4999; // strains of 1e-9: small
 /// Cook's membrane, n x n quadrilaterals, load of 1 N/m.
 scene::Scene cook(int n)
 {
-  auto scene
-      = test::rectangle(0, 0, n, n, "elastic",
-                        {{"E", E}, {"nu", nu}, {"density", 1e3}});
+  auto scene = test::rectangle(0, 0, n, n, "elastic",
+                               {{"E", E}, {"nu", nu}, {"density", 1e3}});
   scene.mesh.shape = "quadrilateral";
   scene.mesh.corners = {{{0, 0}, {48, 44}, {48, 60}, {0, 44}}};
   scene.mesh.diagonal = scene::Diagonal::left;
@@ -85,23 +84,22 @@ double direct(int n, Mass mass)
     Eigen::Matrix4d D = Eigen::Vector4d(2, 2, 2, 1).asDiagonal();
     D = G * (D - 2. / 3 * one * one.transpose());
     const Eigen::Matrix2d M = 4.05 * A * g * g.transpose();
-    const Eigen::Matrix2d bubble
-        = G * (M.trace() * Eigen::Matrix2d::Identity() + M / 3);
+    const Eigen::Matrix2d bubble =
+        G * (M.trace() * Eigen::Matrix2d::Identity() + M / 3);
     const double integral = 0.45 * A;
     Eigen::Matrix<double, 9, 9> k;
-    k << A * B.transpose() * D * B, -(A / 3) * B.transpose() * one
-             * Eigen::RowVector3d::Ones(),
+    k << A * B.transpose() * D * B,
+        -(A / 3) * B.transpose() * one * Eigen::RowVector3d::Ones(),
         Eigen::Matrix<double, 3, 9>::Zero();
     k.bottomLeftCorner<3, 6>() = k.topRightCorner<6, 3>().transpose();
-    const Eigen::Matrix3d m
-        = mass == Mass::one_point
-              ? Eigen::Matrix3d(Eigen::Matrix3d::Constant(A / 9))
-              : Eigen::Matrix3d(A / 12
-                                * (Eigen::Matrix3d::Ones()
-                                   + Eigen::Matrix3d::Identity()));
-    k.bottomRightCorner<3, 3>()
-        = -m / K
-          - integral * integral * g.transpose() * bubble.inverse() * g;
+    const Eigen::Matrix3d m =
+        mass == Mass::one_point
+            ? Eigen::Matrix3d(Eigen::Matrix3d::Constant(A / 9))
+            : Eigen::Matrix3d(
+                  A / 12
+                  * (Eigen::Matrix3d::Ones() + Eigen::Matrix3d::Identity()));
+    k.bottomRightCorner<3, 3>() =
+        -m / K - integral * integral * g.transpose() * bubble.inverse() * g;
     const auto unknown = [&](int i)
     { return i < 6 ? 3 * cell[i / 2] + i % 2 : 3 * cell[i - 6] + 2; };
     for (int i = 0; i < 9; ++i)
@@ -194,9 +192,9 @@ TEST_CASE("equal order without bubble has a checkerboard, MINI has none",
     Body body(scene);
     body.set_stage(loaded());
     REQUIRE(body.step(0, 1));
-    rough[element == scene::Element::equal_order]
-        = test::roughness(body, body.state().p)
-          / test::root_mean_square(body.state().p);
+    rough[element == scene::Element::equal_order] =
+        test::roughness(body, body.state().p)
+        / test::root_mean_square(body.state().p);
   }
   CAPTURE(rough[0], rough[1]);
   CHECK(rough[0] < 0.2); // the corners' own gradients

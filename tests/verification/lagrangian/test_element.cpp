@@ -8,8 +8,8 @@
 #include <random>
 
 using namespace mmale;
-using test::Body;
 using Catch::Approx;
+using test::Body;
 
 namespace
 {
@@ -42,8 +42,8 @@ std::vector<double> trial(const Body& body, double displacement,
 TEST_CASE("a Newton step with the bubbles as unknowns is the condensed one",
           "[verification][element]")
 {
-  const auto symmetry = GENERATE(scene::Symmetry::plane_strain,
-                                 scene::Symmetry::axisymmetric);
+  const auto symmetry =
+      GENERATE(scene::Symmetry::plane_strain, scene::Symmetry::axisymmetric);
   Body body(scene_of("j2", symmetry));
   const auto z = trial(body, 0.02, 2, 3); // elastic and plastic cells
   REQUIRE(body.evaluate(z));
@@ -102,8 +102,8 @@ TEST_CASE("the element's tangent is the derivative of its residual",
   // With p at its value of the start the bubble has nothing to drive it, so
   // that its dependence on the geometry, which the tangent leaves out, is not
   // seen: the tangent must be exact.
-  const auto symmetry = GENERATE(scene::Symmetry::plane_strain,
-                                 scene::Symmetry::axisymmetric);
+  const auto symmetry =
+      GENERATE(scene::Symmetry::plane_strain, scene::Symmetry::axisymmetric);
   Body body(scene_of("elastic", symmetry));
   auto z = trial(body, 0.03, 5, 7);
   for (int n = 0; n < body.num_nodes(); ++n)
@@ -138,8 +138,8 @@ TEST_CASE("the element's tangent is the derivative of its residual",
       double expected = 0, size = 0;
       for (int j = 0; j < 9; ++j)
       {
-        const double term
-            = J[c][9 * i + j] * d[3 * body.cell(c)[j / 3] + j % 3];
+        const double term =
+            J[c][9 * i + j] * d[3 * body.cell(c)[j / 3] + j % 3];
         expected += term;
         size += std::abs(term);
       }

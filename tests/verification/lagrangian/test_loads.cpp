@@ -9,8 +9,8 @@
 #include <numbers>
 
 using namespace mmale;
-using test::Body;
 using Catch::Approx;
+using test::Body;
 
 namespace
 {

@@ -8,10 +8,10 @@
 #include <cmath>
 
 using namespace mmale;
-using test::Body;
 using Catch::Approx;
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
+using test::Body;
 
 namespace
 {
@@ -36,8 +36,8 @@ double stress_error(Body& body, const Eigen::Vector4d& s, double p)
   double out = 0;
   for (int c = 0; c < body.num_cells(); ++c)
   {
-    out = std::max(
-        out, (Eigen::Vector4d(body.state().s.data() + 4 * c) - s).norm());
+    out = std::max(out,
+                   (Eigen::Vector4d(body.state().s.data() + 4 * c) - s).norm());
     out = std::max(out, std::abs(body.state().P[c] - p));
   }
   for (double nodal : body.state().p)
@@ -64,13 +64,14 @@ TEST_CASE("patch test: a linear displacement of the boundary is found inside, "
   const Matrix2d f = Q * Vector2d(a, b).asDiagonal() * Q.transpose();
   Body body(patch(law));
   const auto start = body.state().x;
-  const double update = test::solve_prescribed(
-      body,
-      [&](double x, double y) -> std::array<double, 2>
-      {
-        const Vector2d u = (f - Matrix2d::Identity()) * Vector2d(x, y);
-        return {u[0], u[1]};
-      });
+  const double update =
+      test::solve_prescribed(body,
+                             [&](double x, double y) -> std::array<double, 2>
+                             {
+                               const Vector2d u =
+                                   (f - Matrix2d::Identity()) * Vector2d(x, y);
+                               return {u[0], u[1]};
+                             });
   CHECK(update < 1e-12);
 
   double error = 0;
@@ -80,8 +81,8 @@ TEST_CASE("patch test: a linear displacement of the boundary is found inside, "
                    .norm());
   CHECK(error < 1e-12 * std::hypot(1, 0.8));
 
-  Eigen::Vector4d s = 2 * G * deviator(2 * (a - 1) / (a + 1),
-                                       2 * (b - 1) / (b + 1), 0);
+  Eigen::Vector4d s =
+      2 * G * deviator(2 * (a - 1) / (a + 1), 2 * (b - 1) / (b + 1), 0);
   const Matrix2d turned = Q * s.head<2>().asDiagonal() * Q.transpose();
   s << turned(0, 0), turned(1, 1), s[2], turned(0, 1);
   const double p = -K * std::log(a * b);
@@ -99,8 +100,8 @@ TEST_CASE("patch test: any linear displacement leaves the stress constant",
   test::solve_prescribed(body,
                          [&](double x, double y) -> std::array<double, 2>
                          {
-                           const Vector2d u
-                               = f * Vector2d(x, y) - Vector2d(x, y);
+                           const Vector2d u =
+                               f * Vector2d(x, y) - Vector2d(x, y);
                            return {u[0], u[1]};
                          });
   const Eigen::Vector4d s(body.state().s.data());
@@ -125,10 +126,9 @@ TEST_CASE("patch test about an axis: u_r = c r, u_z = d z",
   CHECK(update < 1e-12);
   double error = 0;
   for (int n = 0; n < body.num_nodes(); ++n)
-    error = std::max(error,
-                     std::hypot(body.state().x[2 * n] - a * start[2 * n],
-                                body.state().x[2 * n + 1]
-                                    - b * start[2 * n + 1]));
+    error = std::max(
+        error, std::hypot(body.state().x[2 * n] - a * start[2 * n],
+                          body.state().x[2 * n + 1] - b * start[2 * n + 1]));
   CHECK(error < 1e-12);
   const double e_r = 2 * (a - 1) / (a + 1), e_z = 2 * (b - 1) / (b + 1);
   const Eigen::Vector4d s = 2 * G * deviator(e_r, e_z, e_r);

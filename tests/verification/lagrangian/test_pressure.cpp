@@ -53,9 +53,9 @@ void check(Flow& flow)
   const double rough = test::roughness(flow.body, flow.body.state().p);
   const auto [P_minus_p, theta_minus_J] = flow.body.mismatch();
   CAPTURE(rough, P_minus_p / Flow::yield, theta_minus_J);
-  // In yield stresses, absolute (shared with volume_equation's measure): 0.12
-  // there on 1/20; alternating signs of p's own size, 3, would give 12.
-  CHECK(rough * Flow::yield > 0);
+  // 0.12 yield stresses were found on 1/20 in a small-strain study with the
+  // same equations; this mesh is twice as coarse and the punch's corner is in
+  // it. A checkerboard of the size of p, 3 yield stresses, has 7 and more.
   CHECK(rough / Flow::yield < 0.5);
   // The law takes the cell's mean p: the two are one number to round-off.
   CHECK(P_minus_p < 1e-12 * test::largest(flow.body.state().p));

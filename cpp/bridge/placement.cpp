@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mmale::bridge
+{
+using ::remap::Kind;
+
+Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
+                     const std::vector<std::string>& surfaces)
+    : _domain(domain), _kinds(domain.num_nodes(), Kind::free),
+      _direction(2 * domain.num_nodes(), 0), _mesh(mesh),
+      _motion(2 * domain.num_nodes(), 0)
+{
+  for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
+  {
+    const bool surface =
+        std::ranges::find(surfaces, domain.boundary_names[b]) != surfaces.end();
+    for (int n : domain.boundary_nodes(static_cast<int>(b)))
+      _kinds[n] = _kinds[n] != Kind::free ? Kind::fixed
+                  : surface               ? Kind::surface
+                                          : Kind::slide;
+    if (not surface)
+      add_side(static_cast<int>(b));
+  }
+  for (const mesh::Facet& f : domain.facets)
+    for (int d = 0; d < 2; ++d)
+    {
+      const double along =
+          domain.initial_x[2 * f.b + d] - domain.initial_x[2 * f.a + d];
+      _direction[2 * f.a + d] += along;
+      _direction[2 * f.b + d] += along;
+    }
+  mesh::update_ghosts(domain.nodes(), _direction, 2);
+  for (Kind k : _kinds)
+    _on_surface.push_back(k == Kind::surface);
+  _placed = _kinds;
+  std::ranges::replace(_placed, Kind::slide, Kind::fixed);
+  const auto& around = mesh.node_nodes();
+  for (int n = 0; n < mesh.num_nodes(); ++n)
+    for (int m : around[n])
+    {
+      const auto edge = ::remap::point(domain.initial_x, m)
+                        - ::remap::point(domain.initial_x, n);
+      _weight.push_back(1 / ::remap::dot(edge, edge));
+    }
+}
+
+void Placement::add_side(int boundary)
+{
+  // The ends are the extreme nodes along the longer extent.
+  const auto nodes = _domain.boundary_nodes(boundary);
+  constexpr double far = std::numeric_limits<double>::max();
+  double box[4] = {far, far, far, far}; // low x, low y, minus high x, high y
+  for (int n : nodes)
+    for (int d = 0; d < 2; ++d)
+    {
+      box[d] = std::min(box[d], _domain.initial_x[2 * n + d]);
+      box[2 + d] = std::min(box[2 + d], -_domain.initial_x[2 * n + d]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, box, 4, MPI_DOUBLE, MPI_MIN, _domain.comm);
+  if (box[0] == far) // a side that named boundaries have taken whole
+    return;
+  const int d = -box[3] - box[1] > -box[2] - box[0] ? 1 : 0;
+  const double low = box[d], high = -box[2 + d];
+  Side side;
+  for (int n : nodes)
+  {
+    const double t = (_domain.initial_x[2 * n + d] - low) / (high - low);
+    const bool owned = n < _domain.num_owned_nodes;
+    if (t < 1e-9 or t > 1 - 1e-9)
+    {
+      if (owned)
+        side.ends[t > 0.5] = n;
+      continue;
+    }
+    side.nodes.push_back(n);
+    side.part.push_back(t);
+  }
+  _sides.push_back(std::move(side));
+}
+
+/// Both ends of all sides, on all ranks.
+std::vector<std::array<double, 4>>
+Placement::ends(std::span<const double> x) const
+{
+  std::vector<std::array<double, 4>> out(_sides.size(), {0, 0, 0, 0});
+  for (std::size_t s = 0; s < _sides.size(); ++s)
+    for (int e = 0; e < 2; ++e)
+      for (int d = 0; d < 2; ++d)
+        if (const int n = _sides[s].ends[e]; n >= 0)
+          out[s][2 * e + d] = x[2 * n + d];
+  MPI_Allreduce(MPI_IN_PLACE, out.data(), static_cast<int>(4 * out.size()),
+                MPI_DOUBLE, MPI_SUM, _domain.comm);
+  return out;
+}
+
+/// The first spacing on sides that are straight now.
+void Placement::place_sides(std::vector<double>& x) const
+{
+  const auto ends = this->ends(x);
+  std::vector<double> bend(_sides.size(), 0); // largest distance from the chord
+  for (std::size_t s = 0; s < _sides.size(); ++s)
+  {
+    const ::remap::Point a{ends[s][0], ends[s][1]},
+        chord = ::remap::Point{ends[s][2], ends[s][3]} - a;
+    for (int n : _sides[s].nodes)
+      bend[s] = std::max(
+          bend[s], std::abs(::remap::cross(chord, ::remap::point(x, n) - a))
+                       / ::remap::dot(chord, chord));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, bend.data(), static_cast<int>(bend.size()),
+                MPI_DOUBLE, MPI_MAX, _domain.comm);
+  for (std::size_t s = 0; s < _sides.size(); ++s)
+    for (std::size_t i = 0; bend[s] < 1e-9 and i < _sides[s].nodes.size(); ++i)
+      for (int d = 0; d < 2; ++d)
+        x[2 * _sides[s].nodes[i] + d] =
+            ends[s][d] + _sides[s].part[i] * (ends[s][2 + d] - ends[s][d]);
+}
+
+/// Average the motion into the body (Jacobi: the same on any number of ranks).
+void Placement::follow_boundary()
+{
+  const auto& around = _mesh.node_nodes();
+  std::vector<double> next = _motion;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+  {
+    for (int n = 0; n < _domain.num_owned_nodes; ++n)
+    {
+      if (_kinds[n] != Kind::free)
+        continue;
+      double sum[3] = {0, 0, 0};
+      const auto nodes = around[n];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        const double w = _weight[around.offsets[n] + i];
+        sum[0] += w * _motion[2 * nodes[i]];
+        sum[1] += w * _motion[2 * nodes[i] + 1];
+        sum[2] += w;
+      }
+      next[2 * n] = sum[0] / sum[2];
+      next[2 * n + 1] = sum[1] / sum[2];
+    }
+    mesh::update_ghosts(_domain.nodes(), next, 2);
+    _motion = next;
+  }
+}
+
+std::vector<double> Placement::start(std::span<const double> moved,
+                                     std::span<const double> home)
+{
+  std::vector<double> x(moved.begin(), moved.end());
+  place_sides(x);
+  // The last motion, brought to the size of this one, is the first guess.
+  double size[2] = {0, 0};
+  for (std::size_t n = 0; n < _kinds.size(); ++n)
+    for (std::size_t i = 2 * n; _kinds[n] != Kind::free and i < 2 * n + 2; ++i)
+    {
+      size[0] = std::max(size[0], std::abs(_motion[i]));
+      _motion[i] = x[i] - home[i];
+      size[1] = std::max(size[1], std::abs(_motion[i]));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, size, 2, MPI_DOUBLE, MPI_MAX, _domain.comm);
+  for (std::size_t n = 0; n < _kinds.size(); ++n)
+    for (std::size_t i = 2 * n; _kinds[n] == Kind::free and i < 2 * n + 2; ++i)
+      _motion[i] *= size[0] > 0 ? size[1] / size[0] : 0;
+  follow_boundary();
+  for (std::size_t n = 0; n < _kinds.size(); ++n)
+    for (std::size_t i = 2 * n; _kinds[n] == Kind::free and i < 2 * n + 2; ++i)
+      x[i] = home[i] + _motion[i];
+  return x;
+}
+} // namespace mmale::bridge

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "mesh/domain.h"
+#include "remap/smoothing/smooth.h"
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mmale::bridge
+{
+/// What nodes may do in a remap (METHOD.md, step 2), and where smoothing of
+/// the whole mesh starts.
+class Placement
+{
+public:
+  /// Collective.
+  /// @param[in] surfaces boundaries that are free surfaces
+  /// @param[in] mesh     kept by reference: must outlive this
+  Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
+            const std::vector<std::string>& surfaces);
+
+  /// For patches: nodes slide along their boundary, stay on a free surface,
+  /// and stay with the material where two boundaries meet; shape (nodes).
+  std::span<const ::remap::Kind> kinds() const { return _kinds; }
+
+  /// For the whole mesh: boundary nodes are where `start` has put them.
+  std::span<const ::remap::Kind> kinds_placed() const { return _placed; }
+
+  /// 1 for nodes of free surfaces, shape (nodes).
+  std::span<const std::uint8_t> on_surface() const { return _on_surface; }
+
+  /// Along the boundary, for sliding nodes; shape (nodes, 2).
+  std::span<const double> direction() const { return _direction; }
+
+  /// Start for the whole mesh, so that it follows the boundary and does not
+  /// drift with the flow. Nodes of straight boundaries take the first mesh's
+  /// spacing between the ends as they are now, other boundary nodes stay as
+  /// given. Inner nodes start from their places after the last remap and
+  /// follow the boundary's motion, the closer the stiffer: the motion is
+  /// averaged over edges with weights 1 / length², some sweeps a call, from
+  /// the last call's. Collective.
+  ///
+  /// @param[in] moved boundary nodes as they are now, shape (nodes, 2) [m]
+  /// @param[in] home  nodes after the last remap, shape (nodes, 2) [m]
+  std::vector<double> start(std::span<const double> moved,
+                            std::span<const double> home);
+
+private:
+  /// A boundary that is straight at first.
+  struct Side
+  {
+    std::vector<int> nodes;   ///< local, without the two ends
+    std::vector<double> part; ///< of the way between the ends, at first
+    int ends[2] = {-1, -1};   ///< where this rank owns them
+  };
+  /// Sweeps of the averaging a call. Doubled: nothing but time once the
+  /// boundary moves evenly.
+  static constexpr int sweeps = 20;
+  void add_side(int boundary);
+  void place_sides(std::vector<double>& x) const;
+  void follow_boundary();
+  std::vector<std::array<double, 4>> ends(std::span<const double> x) const;
+
+  const mesh::Domain& _domain;
+  std::vector<::remap::Kind> _kinds, _placed;
+  std::vector<std::uint8_t> _on_surface;
+  std::vector<double> _direction;
+  std::vector<Side> _sides;
+  const ::remap::Mesh& _mesh;
+  std::vector<double> _weight; ///< of the mesh's node-to-node entries
+  std::vector<double> _motion; ///< of all nodes in the last call, (nodes, 2)
+};
+} // namespace mmale::bridge
