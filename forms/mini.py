@@ -26,9 +26,7 @@ x = SpatialCoordinate(mesh)
 
 # Two kernels a form, told apart by a number, since FFCx 0.9 mixes up the values of
 # a coefficient at the points of two rules within one kernel. The solver calls both.
-dx = Measure(
-    "dx", domain=mesh, subdomain_id=1, metadata={"quadrature_degree": 1}
-)
+dx = Measure("dx", domain=mesh, subdomain_id=1, metadata={"quadrature_degree": 1})
 dx_bubble = Measure(
     "dx", domain=mesh, subdomain_id=2, metadata={"quadrature_degree": 5}
 )

@@ -34,7 +34,7 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
       _direction[2 * f.a + d] += along;
       _direction[2 * f.b + d] += along;
     }
-  mesh::update_ghosts(domain.nodes(), _direction, 2);
+  domain.node_halo->update(_direction, 2);
   for (Kind k : _kinds)
     _on_surface.push_back(k == Kind::surface);
   _placed = _kinds;
@@ -144,7 +144,7 @@ void Placement::follow_boundary()
       next[2 * n] = sum[0] / sum[2];
       next[2 * n + 1] = sum[1] / sum[2];
     }
-    mesh::update_ghosts(_domain.nodes(), next, 2);
+    _domain.node_halo->update(next, 2);
     _motion = next;
   }
 }

@@ -23,9 +23,9 @@ using Nodes = std::array<int, 3>;
   if (size == 1)
     return host;
   host.cell_halo = [&domain](std::span<double> v, int block)
-  { mesh::update_ghosts(domain.cell_map(), v, block); };
+  { domain.cell_halo->update(v, block); };
   host.node_halo = [&domain](std::span<double> v, int block)
-  { mesh::update_ghosts(domain.nodes(), v, block); };
+  { domain.node_halo->update(v, block); };
   const auto reduce = [&domain](MPI_Op op)
   {
     return [&domain, op](std::span<double> v)

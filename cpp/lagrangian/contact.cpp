@@ -33,8 +33,8 @@ void Contact::begin_step(std::span<const double> x, double t0, double t1)
   for (Candidate& c : _candidates)
   {
     const Wall& wall = _walls[c.wall];
-    c.held = wall.sign * (x[2 * c.node] - wall.x)
-             <= (wall.rough ? _reach : _gap);
+    c.held =
+        wall.sign * (x[2 * c.node] - wall.x) <= (wall.rough ? _reach : _gap);
   }
 }
 
@@ -59,7 +59,7 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, _domain.comm);
   if (changed == 0)
     return false;
-  mesh::update_ghosts(_domain.nodes(), held, 1);
+  _domain.node_halo->update(held, 1);
   for (Candidate& c : _candidates)
     c.held = held[c.node] > 0;
   return true;

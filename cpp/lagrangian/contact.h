@@ -43,7 +43,7 @@ public:
   void apply(std::span<const double> x, std::span<int> holder,
              std::span<double> increment) const;
 
-  bool empty() const { return _candidates.empty(); }
+  bool empty() const { return _walls.empty(); }
 
 private:
   struct Candidate

@@ -318,11 +318,10 @@ void Element::accept(State& state, std::span<const double> z, double dt) const
     }
     state.p[n] = z[3 * n + 2];
   }
-  const auto& map = _domain.cell_map();
-  mesh::update_ghosts(map, state.s, 4);
-  mesh::update_ghosts(map, state.P, 1);
-  mesh::update_ghosts(map, state.density, 1);
+  _domain.cell_halo->update(state.s, 4);
+  _domain.cell_halo->update(state.P, 1);
+  _domain.cell_halo->update(state.density, 1);
   if (_num_history > 0)
-    mesh::update_ghosts(map, state.history, _num_history);
+    _domain.cell_halo->update(state.history, _num_history);
 }
 } // namespace mmale::lagrangian

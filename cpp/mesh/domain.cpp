@@ -106,7 +106,7 @@ std::vector<int> Domain::boundary_nodes(int boundary) const
   for (const Facet& f : facets)
     if (f.boundary == boundary)
       mark[f.a] = mark[f.b] = 1;
-  update_ghosts(nodes(), mark, 1);
+  node_halo->update(mark, 1);
   std::vector<int> out;
   for (int n = 0; n < num_nodes(); ++n)
     if (mark[n] > 0)
@@ -135,15 +135,25 @@ void Domain::put_geometry(std::span<const double> x)
         geometry.x()[3 * points(c, v) + k] = x[2 * dofs(c, v) + k];
 }
 
-void update_ghosts(const dolfinx::common::IndexMap& map, std::span<double> v,
-                   int block_size)
+struct Halo::Impl
 {
-  if (map.num_ghosts() == 0 and dolfinx::MPI::size(map.comm()) == 1)
+  std::shared_ptr<const dolfinx::common::IndexMap> map;
+  std::map<int, dolfinx::la::Vector<double>> by_width;
+};
+
+Halo::Halo(std::shared_ptr<const dolfinx::common::IndexMap> map)
+    : _impl(std::make_unique<Impl>(std::move(map)))
+{
+}
+
+Halo::~Halo() = default;
+
+void Halo::update(std::span<double> v, int width)
+{
+  auto& [map, by_width] = *_impl;
+  if (dolfinx::MPI::size(map->comm()) == 1)
     return;
-  // shares ownership with nobody: the map outlives this call
-  const std::shared_ptr<const dolfinx::common::IndexMap> shared(
-      std::shared_ptr<void>(), &map);
-  dolfinx::la::Vector<double> w(shared, block_size);
+  auto& w = by_width.try_emplace(width, map, width).first->second;
   std::ranges::copy(v, w.mutable_array().begin());
   w.scatter_fwd();
   std::ranges::copy(w.array(), v.begin());
@@ -161,6 +171,8 @@ Domain make_domain(MPI_Comm comm, const Grid& grid,
       basix::element::dpc_variant::unset, false);
   d.space = std::make_shared<const dolfinx::fem::FunctionSpace<double>>(
       dolfinx::fem::create_functionspace(d.mesh, p1));
+  d.node_halo = std::make_shared<Halo>(d.space->dofmap()->index_map);
+  d.cell_halo = std::make_shared<Halo>(d.mesh->topology()->index_map(2));
   fill_arrays(d);
 
   for (const auto& [name, b] : boundary)

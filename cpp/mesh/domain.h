@@ -22,6 +22,22 @@ struct Facet
   int boundary; ///< index into Domain::boundary_names
 };
 
+/// Fills the ghosts of arrays over the entities of one index map.
+class Halo
+{
+public:
+  explicit Halo(std::shared_ptr<const dolfinx::common::IndexMap> map);
+  ~Halo();
+
+  /// From their owners. Collective; the pattern of a width is made once.
+  /// @param[in,out] v shape (owned + ghosts, width)
+  void update(std::span<double> v, int width);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> _impl;
+};
+
 /// The distributed mesh as the solver sees it.
 ///
 /// Owned entities come first, then ghosts; each rank holds every cell that
@@ -41,6 +57,7 @@ struct Domain
   std::vector<std::string> boundary_names; ///< named ones, then bare sides
   std::vector<std::string> boundary_sides; ///< side that each lies on
   std::vector<double> initial_x;           ///< nodes, shape (n, 2) [m]
+  std::shared_ptr<Halo> node_halo, cell_halo;
   int num_owned_cells = 0;
   int num_owned_nodes = 0;
 
@@ -54,10 +71,6 @@ struct Domain
   /// Write coordinates, shape (n, 2), into the DOLFINx geometry.
   void put_geometry(std::span<const double> x);
 };
-
-/// Fill the ghosts of an array from their owners. Collective.
-void update_ghosts(const dolfinx::common::IndexMap& map, std::span<double> v,
-                   int block_size);
 
 /// Distribute a grid and name its boundary. Collective; the grid is read on
 /// rank 0 only.

@@ -152,14 +152,14 @@ TEST_CASE("ghosts get their owner's values", "[unit][domain]")
   for (int c = 0; c < d.num_owned_cells; ++c)
     for (int k = 0; k < 2; ++k)
       at_cells[2 * c + k] = 2.0 * d.cell_id[c] + k;
-  mesh::update_ghosts(d.cell_map(), at_cells, 2);
+  d.cell_halo->update(at_cells, 2);
   for (int c = 0; c < d.num_cells(); ++c)
     for (int k = 0; k < 2; ++k)
       CHECK(at_cells[2 * c + k] == 2.0 * d.cell_id[c] + k);
   std::vector<double> at_nodes(d.num_nodes(), -1);
   for (int n = 0; n < d.num_owned_nodes; ++n)
     at_nodes[n] = static_cast<double>(d.node_id[n]);
-  mesh::update_ghosts(d.nodes(), at_nodes, 1);
+  d.node_halo->update(at_nodes, 1);
   for (int n = 0; n < d.num_nodes(); ++n)
     CHECK(at_nodes[n] == static_cast<double>(d.node_id[n]));
 }
