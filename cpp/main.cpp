@@ -136,6 +136,7 @@ Exit run_one(MPI_Comm comm, const Job& job, const RunOptions& options,
   try
   {
     const Result result = run(comm, job.scene, options);
+    row.interrupted = result.interrupted;
     row.outcome = result.outcome;
     row.last = result.last;
     return not result.completed ? stopped
@@ -182,12 +183,15 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
                          scene == reference.scene ? reference.file : "", scene,
                          given.quiet},
                         row));
+    const bool interrupted = row.interrupted;
     rows.push_back(std::move(row));
     if (rank == 0 and jobs.size() > 1
         and not(std::ofstream(results / "sweep.csv")
                 << scene::to_csv(rows) << std::flush))
       throw std::runtime_error("cannot write "
                                + (results / "sweep.csv").string());
+    if (interrupted)
+      break;
   }
   if (rank == 0 and jobs.size() > 1)
     draw_sweep(jobs, results);

@@ -242,18 +242,20 @@ output::Ledger Monitor::ledger() const
   out.push_back({.name = "volume",
                  .unit = "m3" + per,
                  .end = volume(),
-                 .through_surface = turn * passed.volume,
-                 .booked = _lagrangian_volume});
+                 .through_surface = turn * passed.volume.through,
+                 .booked = _lagrangian_volume + turn * passed.volume.at_walls});
   if (_sim.law)
     out.push_back({.name = "mass",
                    .unit = "kg" + per,
                    .end = integral(_sim.state.density),
-                   .through_surface = turn * passed.mass});
+                   .through_surface = turn * passed.mass.through,
+                   .booked = turn * passed.mass.at_walls});
   for (const auto& [name, values] : _sim.state.tracer)
     out.push_back({.name = name,
                    .unit = "m3" + per,
                    .end = integral(values),
-                   .through_surface = turn * passed.tracer[name]});
+                   .through_surface = turn * passed.tracer[name].through,
+                   .booked = turn * passed.tracer[name].at_walls});
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i].start = _start.empty() ? out[i].end : _start[i].start;
   return out;

@@ -55,6 +55,7 @@ private:
   output::Summary _summary;
   double _fields_due = 0;
   int _outputs = 0;
+  bool _interrupted = false;
   StopSignal _stop;
 };
 
@@ -186,7 +187,11 @@ bool Run::stage(const scene::Stage& stage)
       return false;
     }
     if (not log.remap.trouble.empty())
+    {
       _progress.note("remap left out: " + log.remap.trouble);
+      ++_summary.remaps_left_out;
+      _summary.remap_trouble = log.remap.trouble;
+    }
     _summary.remaps += log.remap.done;
     ++_summary.steps;
     control.accepted(static_cast<int>(log.newton.residuals.size()) - 1);
@@ -200,6 +205,7 @@ bool Run::stage(const scene::Stage& stage)
     if (_stop.requested(_comm))
     {
       _summary.outcome = "stopped by a signal";
+      _interrupted = true;
       return false;
     }
   }
@@ -251,6 +257,7 @@ Result Run::go()
   finish();
   Result result{.outcome = _summary.outcome,
                 .completed = completed,
+                .interrupted = _interrupted,
                 .checks_hold = output::all_hold(_summary.checks)};
   for (const auto& name : _curves.names())
     result.last[name] = _curves.column(name).back();

@@ -23,6 +23,7 @@ struct Result
 {
   std::string outcome; ///< "completed", or why it stopped
   bool completed = false;
+  bool interrupted = false; ///< by a signal: what follows is not wanted either
   bool checks_hold = true;
   std::map<std::string, double> last; ///< last row of curves.csv, by name
 };

@@ -9,32 +9,32 @@ namespace mmale::bridge
 {
 using ::remap::Kind;
 
+namespace
+{
+/// A side that bends by less, in parts of its length, is straight.
+constexpr double straight = 1e-9;
+} // namespace
+
 Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
                      const std::vector<std::string>& surfaces)
     : _domain(domain), _kinds(domain.num_nodes(), Kind::free),
       _direction(2 * domain.num_nodes(), 0), _mesh(mesh),
       _motion(2 * domain.num_nodes(), 0)
 {
-  for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
+  const auto surface = [&](std::size_t b)
   {
-    const bool surface =
-        std::ranges::find(surfaces, domain.boundary_names[b]) != surfaces.end();
+    return std::ranges::find(surfaces, domain.boundary_names[b])
+           != surfaces.end();
+  };
+  for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
     for (int n : domain.boundary_nodes(static_cast<int>(b)))
       _kinds[n] = _kinds[n] != Kind::free ? Kind::fixed
-                  : surface               ? Kind::surface
+                  : surface(b)            ? Kind::surface
                                           : Kind::slide;
-    if (not surface)
+  for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
+    if (not surface(b))
       add_side(static_cast<int>(b));
-  }
-  for (const mesh::Facet& f : domain.facets)
-    for (int d = 0; d < 2; ++d)
-    {
-      const double along =
-          domain.initial_x[2 * f.b + d] - domain.initial_x[2 * f.a + d];
-      _direction[2 * f.a + d] += along;
-      _direction[2 * f.b + d] += along;
-    }
-  domain.node_halo->update(_direction, 2);
+  turn(domain.initial_x);
   for (Kind k : _kinds)
     _on_surface.push_back(k == Kind::surface);
   _placed = _kinds;
@@ -77,6 +77,8 @@ void Placement::add_side(int boundary)
         side.ends[t > 0.5] = n;
       continue;
     }
+    if (_kinds[n] == Kind::fixed) // two boundaries meet here
+      continue;
     side.nodes.push_back(n);
     side.part.push_back(t);
   }
@@ -98,24 +100,48 @@ Placement::ends(std::span<const double> x) const
   return out;
 }
 
-/// The first spacing on sides that are straight now.
-void Placement::place_sides(std::vector<double>& x) const
+/// How far the nodes of each side are from the chord of its ends, in chords.
+std::vector<double>
+Placement::bends(std::span<const double> x,
+                 std::span<const std::array<double, 4>> ends) const
 {
-  const auto ends = this->ends(x);
-  std::vector<double> bend(_sides.size(), 0); // largest distance from the chord
+  std::vector<double> out(_sides.size(), 0);
   for (std::size_t s = 0; s < _sides.size(); ++s)
   {
     const ::remap::Point a{ends[s][0], ends[s][1]},
         chord = ::remap::Point{ends[s][2], ends[s][3]} - a;
     for (int n : _sides[s].nodes)
-      bend[s] = std::max(
-          bend[s], std::abs(::remap::cross(chord, ::remap::point(x, n) - a))
-                       / ::remap::dot(chord, chord));
+      out[s] = std::max(
+          out[s], std::abs(::remap::cross(chord, ::remap::point(x, n) - a))
+                      / ::remap::dot(chord, chord));
   }
-  MPI_Allreduce(MPI_IN_PLACE, bend.data(), static_cast<int>(bend.size()),
+  MPI_Allreduce(MPI_IN_PLACE, out.data(), static_cast<int>(out.size()),
                 MPI_DOUBLE, MPI_MAX, _domain.comm);
+  return out;
+}
+
+void Placement::turn(std::span<const double> x)
+{
+  std::ranges::fill(_direction, 0.0);
+  for (const mesh::Facet& f : _domain.facets)
+    for (int d = 0; d < 2; ++d)
+      for (int n : {f.a, f.b})
+        _direction[2 * n + d] += x[2 * f.b + d] - x[2 * f.a + d];
+  _domain.node_halo->update(_direction, 2);
+  const auto bend = bends(x, ends(x));
   for (std::size_t s = 0; s < _sides.size(); ++s)
-    for (std::size_t i = 0; bend[s] < 1e-9 and i < _sides[s].nodes.size(); ++i)
+    for (int n : _sides[s].nodes)
+      _kinds[n] = bend[s] < straight ? Kind::slide : Kind::fixed;
+}
+
+/// The first spacing on sides that are straight now.
+void Placement::place_sides(std::vector<double>& x) const
+{
+  const auto ends = this->ends(x);
+  const auto bend = bends(x, ends);
+  for (std::size_t s = 0; s < _sides.size(); ++s)
+    for (std::size_t i = 0; bend[s] < straight and i < _sides[s].nodes.size();
+         ++i)
       for (int d = 0; d < 2; ++d)
         x[2 * _sides[s].nodes[i] + d] =
             ends[s][d] + _sides[s].part[i] * (ends[s][2 + d] - ends[s][d]);

@@ -30,6 +30,11 @@ public:
   /// 1 for nodes of free surfaces, shape (nodes).
   std::span<const std::uint8_t> on_surface() const { return _on_surface; }
 
+  /// Sliding follows the boundary as it is now; nodes of sides that have bent
+  /// stay with the material. To be called before `kinds` is used. Collective.
+  /// @param[in] x nodes, shape (nodes, 2) [m]
+  void turn(std::span<const double> x);
+
   /// Along the boundary, for sliding nodes; shape (nodes, 2).
   std::span<const double> direction() const { return _direction; }
 
@@ -61,6 +66,8 @@ private:
   void place_sides(std::vector<double>& x) const;
   void follow_boundary();
   std::vector<std::array<double, 4>> ends(std::span<const double> x) const;
+  std::vector<double> bends(std::span<const double> x,
+                            std::span<const std::array<double, 4>> ends) const;
 
   const mesh::Domain& _domain;
   std::vector<::remap::Kind> _kinds, _placed;

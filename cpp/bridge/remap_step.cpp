@@ -136,7 +136,6 @@ struct RemapStep::Impl
   bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void make_admissible(State& state, RemapLog& log);
-  void find_spacing();
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -182,29 +181,9 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
   placement.emplace(domain, mesh, scene.remap.surface);
   home = domain.initial_x;
   flags.resize(mesh.num_nodes());
-  find_spacing();
+  spacing = ::remap::facet_lengths(mesh, domain.initial_x);
   if (scene.remap.target == "initial")
-    for (int c = 0; c < mesh.num_cells(); ++c)
-    {
-      const auto [i, j, k] = mesh.cell(c);
-      const auto a = ::remap::point(domain.initial_x, i);
-      targets.push_back(::remap::quality::Target::of(
-          ::remap::point(domain.initial_x, j) - a,
-          ::remap::point(domain.initial_x, k) - a));
-    }
-}
-
-/// Surface nodes return to the ratios of the first mesh.
-void RemapStep::Impl::find_spacing()
-{
-  spacing.resize(mesh.num_facets());
-  for (int f = 0; f < mesh.num_facets(); ++f)
-  {
-    const auto [a, b] = mesh.facet(f);
-    const auto d = ::remap::point(domain.initial_x, b)
-                   - ::remap::point(domain.initial_x, a);
-    spacing[f] = std::sqrt(::remap::dot(d, d));
-  }
+    targets = ::remap::shapes(mesh, domain.initial_x);
 }
 
 RemapStep::RemapStep(const mesh::Domain& domain, const scene::Scene& scene,
@@ -263,6 +242,7 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   }
   if (outcome != ::remap::Outcome::ok)
   {
+    placement->turn(state.x);
     constraints.kinds = placement->kinds();
     x = state.x;
     outcome = smoothing->smooth(x, flags, constraints, host);
@@ -347,23 +327,31 @@ void RemapStep::run(State& state, RemapLog& log)
   log.done = true;
 }
 
+namespace
+{
+Passed passed(const ::remap::Exchange& e)
+{
+  const double walls = e[static_cast<std::size_t>(::remap::Way::closed)];
+  return {::remap::net(e) - walls, walls};
+}
+} // namespace
+
 Exchange RemapStep::exchange() const
 {
+  // components in the order of `transport`; none before the first remap
   const auto& ledger = _impl->ledger;
-  Exchange out{.volume = ::remap::net(ledger.cell_volume)};
-  std::size_t k = 0; // components in the order of `transport`
+  const auto at = [&ledger](std::size_t k)
+  { return k < ledger.cells.size() ? passed(ledger.cells[k]) : Passed(); };
+  Exchange out;
+  out.volume = passed(ledger.cell_volume);
+  std::size_t k = 0;
   if (_impl->law)
   {
-    k = 5;
-    out.mass = k < ledger.cells.size() ? ::remap::net(ledger.cells[k]) : 0;
-    k += 1 + _impl->history;
+    out.mass = at(5);
+    k = 6 + _impl->history;
   }
   for (const auto& [name, tracer] : _impl->scene.tracer)
-  {
-    out.tracer[name] =
-        k < ledger.cells.size() ? ::remap::net(ledger.cells[k]) : 0;
-    ++k;
-  }
+    out.tracer[name] = at(k++);
   return out;
 }
 } // namespace mmale::bridge

@@ -30,12 +30,20 @@ struct RemapLog
   double clipped_largest = 0; ///< by this part of their stress
 };
 
-/// What passed the boundary since the start, inward positive.
+/// What passed the boundary since the start, inward positive; per radian
+/// about an axis.
+struct Passed
+{
+  double through = 0;  ///< free surfaces and open boundaries
+  double at_walls = 0; ///< closed boundaries: round-off, else nodes slid
+                       ///< along a wall that is not straight
+};
+
 struct Exchange
 {
-  double volume = 0;                    ///< [m3/m] or [m3/rad]
-  double mass = 0;                      ///< [kg/m] or [kg/rad]
-  std::map<std::string, double> tracer; ///< integral of each
+  Passed volume;                        ///< [m3/m]
+  Passed mass;                          ///< [kg/m]
+  std::map<std::string, Passed> tracer; ///< integral of each
 };
 
 /// Smoother and transport schemes by name, as the scene may choose them.

@@ -10,10 +10,14 @@ Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
     : _domain(domain),
       _walls(conditions.walls().begin(), conditions.walls().end())
 {
-  double size = 0;
-  for (double x : domain.initial_x)
-    size = std::max(size, std::abs(x));
-  MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, domain.comm);
+  double box[4] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (std::size_t i = 0; i < domain.initial_x.size(); ++i)
+  {
+    box[i % 2] = std::max(box[i % 2], domain.initial_x[i]);
+    box[2 + i % 2] = std::max(box[2 + i % 2], -domain.initial_x[i]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, box, 4, MPI_DOUBLE, MPI_MAX, domain.comm);
+  const double size = std::max(box[0] + box[2], box[1] + box[3]);
   _gap = 1e-9 * size;
   // The remap moves surface nodes along chords; a curved surface so leaves a
   // rough wall by this much, and is still held.
@@ -44,6 +48,7 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
   // Owners decide; ghosts follow.
   std::vector<double> held(_domain.num_nodes(), 0);
   int changed = 0;
+  _unsettled = -1;
   for (const Candidate& c : _candidates)
   {
     if (c.node >= _domain.num_owned_nodes)
@@ -53,7 +58,11 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
     const double push = wall.sign * force[3 * c.node] / stiffness;
     const bool hold =
         wall.rough ? c.held or gap < -_gap : push - gap > -1e-3 * _gap;
-    changed |= hold != c.held;
+    if (hold != c.held)
+    {
+      changed = 1;
+      _unsettled = c.node;
+    }
     held[c.node] = hold;
   }
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, _domain.comm);

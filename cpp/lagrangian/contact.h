@@ -36,6 +36,9 @@ public:
   bool update(std::span<const double> x, std::span<const double> z,
               std::span<const double> force, double stiffness);
 
+  /// A node of this rank that changed at the last `update`, or -1.
+  int unsettled() const { return _unsettled; }
+
   /// Add what is held now to the unknowns' holders and increments.
   ///
   /// @param[in,out] holder    boundary that holds an unknown, shape (n, 3)
@@ -51,13 +54,13 @@ private:
     int node;
     int wall; ///< index into _walls
     bool held = false;
-    int let_go = 0; ///< times in this step; a node that flutters stays
   };
   const mesh::Domain& _domain;
   std::vector<Wall> _walls;
   std::vector<Candidate> _candidates; ///< owned and ghost
   std::vector<double> _rise;          ///< of each wall in this step [m]
   double _gap;                        ///< closer than this is touching [m]
-  double _reach;                      ///< the same for a rough wall [m]
+  int _unsettled = -1;
+  double _reach; ///< the same for a rough wall [m]
 };
 } // namespace mmale::lagrangian

@@ -132,7 +132,7 @@ void Problem::set_stage(const scene::Stage& stage)
   _conditions.emplace(_domain, stage);
   _contact.emplace(_domain, *_conditions);
   _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
-  _guess.clear();
+  _guess_dt = 0;
 }
 
 void Problem::unpack(Vec x)
@@ -413,6 +413,15 @@ PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// A local cell at a local node.
+int Problem::cell_at(int node) const
+{
+  const auto at = std::ranges::find_if(
+      _domain.cells, [node](const auto& cell)
+      { return std::ranges::find(cell, node) != cell.end(); });
+  return static_cast<int>(at - _domain.cells.begin());
+}
+
 void Problem::name_worst(NewtonLog& log)
 {
   log.failure = _failure;
@@ -439,12 +448,8 @@ void Problem::name_worst(NewtonLog& log)
   }
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC,
                 _domain.comm);
-  int cell = -1;
-  if (worst.rank == dolfinx::MPI::rank(_domain.comm))
-    for (int c = 0; c < _domain.num_cells() and cell < 0; ++c)
-      if (std::ranges::find(_domain.cells[c], node) != _domain.cells[c].end())
-        cell = c;
-  agree_on_failure(cell, "Newton did not converge");
+  const bool here = worst.rank == dolfinx::MPI::rank(_domain.comm);
+  agree_on_failure(here ? cell_at(node) : -1, "Newton did not converge");
   log.failure = _failure;
 }
 
@@ -525,7 +530,9 @@ bool Problem::equilibrium(Start from, NewtonLog& log)
   if (_contact->empty()
       or not _contact->update(_state->x, _z.array(), _force.array(), _stress))
     return true;
-  agree_on_failure(0, "contact with a wall did not settle");
+  const int node = _contact->unsettled();
+  agree_on_failure(node < 0 ? -1 : cell_at(node),
+                   "contact with a wall did not settle");
   log.failure = _failure;
   return false;
 }
@@ -534,9 +541,9 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
 {
   const auto scope = _clock.scope("1 lagrangian");
   prepare(state, t0, t1);
-  const bool solved = (not _guess.empty() and equilibrium(Start::guess, log))
+  const bool solved = (_guess_dt > 0 and equilibrium(Start::guess, log))
                       or equilibrium(Start::rest, log);
-  _guess.clear();
+  _guess_dt = 0;
   if (not solved)
     return false;
   _element.accept(state, _z.array(), t1 - t0);

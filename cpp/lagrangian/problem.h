@@ -77,6 +77,7 @@ private:
   void load_jacobian(int cell, double* J) const;
   void agree_on_failure(int cell, const std::string& why);
   void name_worst(NewtonLog& log);
+  int cell_at(int node) const;
 
   /// Where Newton starts from.
   enum class Start

@@ -19,7 +19,8 @@ struct LedgerEntry
   double start = 0;
   double end = 0;
   double through_surface = 0; ///< net, inward is +
-  double booked = 0;          ///< made by clips to the admissible range
+  double booked = 0; ///< at walls, and what is not conserved: the volume's
+                     ///< change by the material's own motion
   /// What the gap is measured by; 0: |start|. Give it where a quantity
   /// starts from nothing (momentum).
   double scale = 0;

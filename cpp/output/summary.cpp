@@ -165,6 +165,8 @@ std::string to_json(const Summary& s)
                             {"rejected_steps", s.rejected},
                             {"newton_iterations", s.iterations},
                             {"remaps", s.remaps},
+                            {"remaps_left_out", s.remaps_left_out},
+                            {"remap_trouble", s.remap_trouble},
                             {"cells", s.cells},
                             {"nodes", s.nodes},
                             {"wall_seconds", number(s.wall_seconds)},

@@ -234,6 +234,11 @@ void check_remap(const Scene& scene, const Libraries& libraries,
                    "never happens: give every > 0 or quality_below > 0, or "
                    "mode = \"lagrangian\"",
                    {}});
+  if (not remap.open.empty() and not scene.motion)
+    out.push_back({"remap.open",
+                   "only tracers of a prescribed motion flow through open "
+                   "boundaries; material that flows in is not there yet",
+                   {}});
   const auto one_of = [&](const char* key, const std::string& name,
                           const std::vector<std::string>& list,
                           const char* what)

@@ -36,6 +36,7 @@ struct Row
   std::vector<Override> swept;
   std::string outcome;
   std::map<std::string, double> last; ///< last value of every curve
+  bool interrupted = false;           ///< by a signal: no member follows
 };
 
 /// The table as CSV: swept keys, outcome, every curve that any row has. Cells

@@ -73,7 +73,7 @@ petsc = "-ksp_view"
 [remap]
 mode = "eulerian"
 quality_below = 0.5
-open = ["top"]
+surface = ["top"]
 [output]
 fields_every = 0.5
 [output.curve.a]
@@ -128,7 +128,7 @@ TEST_CASE("describe: what was written is what was understood", "[scene]")
   CHECK(json["solver"]["element"] == "equal_order");
   CHECK(json["solver"]["tangent"] == "continuum");
   CHECK(json["remap"]["mode"] == "eulerian");
-  CHECK(json["remap"]["open"] == nlohmann::json({"top"}));
+  CHECK(json["remap"]["surface"] == nlohmann::json({"top"}));
   CHECK(json["output"]["line"]["b"]["points"] == 7);
   CHECK(json["output"]["picture"]["c"]["at"] == 1.5);
   CHECK(not json.contains("motion"));

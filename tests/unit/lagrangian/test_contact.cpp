@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Nodes of a free surface at a rigid wall: they touch, are held, and let go.
+#include "lagrangian/contact.h"
+
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+
+using namespace mmale;
+using namespace mmale::lagrangian;
+
+namespace
+{
+/// Unit square whose right side may meet a wall at x = 1.2.
+struct Body
+{
+  explicit Body(const std::string& grip)
+  {
+    stage.duration = stage.step = 1;
+    auto& wall = stage.boundary["right"].wall.emplace();
+    wall.x = 1.2;
+    wall.grip = grip;
+    wall.velocity_y = scene::TimeSeries{{}, {-0.5}};
+    conditions.emplace(domain, stage);
+    contact.emplace(domain, *conditions);
+    z.assign(3 * domain.num_nodes(), 0);
+    force.assign(3 * domain.num_nodes(), 0);
+    for (int n : domain.boundary_nodes(domain.boundary("right")))
+      nodes.push_back(n);
+  }
+
+  void move(double u) { set(z, u); }
+  void push(double f) { set(force, f); }
+  bool update() { return contact->update(domain.initial_x, z, force, 1e6); }
+
+  /// Prescribed displacement of a node, NaN where it is free.
+  double held(int node, int direction) const
+  {
+    auto holder = std::vector<int>(conditions->holder().begin(),
+                                   conditions->holder().end());
+    std::vector<double> increment(holder.size(), 0);
+    contact->apply(domain.initial_x, holder, increment);
+    const int i = 3 * node + direction;
+    return holder[i] < 0 ? scene::required : increment[i];
+  }
+
+  static mmale::mesh::Grid square()
+  {
+    scene::Mesh m;
+    m.shape = "rectangle";
+    m.width = m.height = 1;
+    m.cells = {2, 2};
+    return mmale::mesh::make_grid(m);
+  }
+
+  mmale::mesh::Domain domain =
+      mmale::mesh::make_domain(MPI_COMM_WORLD, square(), {});
+  scene::Stage stage;
+  std::optional<Conditions> conditions;
+  std::optional<Contact> contact;
+  std::vector<double> z, force;
+  std::vector<int> nodes;
+
+private:
+  void set(std::vector<double>& v, double x)
+  {
+    for (int n : nodes)
+      v[3 * n] = x;
+  }
+};
+} // namespace
+
+TEST_CASE("a node that passes a wall is brought back to it, not before",
+          "[unit][contact]")
+{
+  Body body("smooth");
+  body.contact->begin_step(body.domain.initial_x, 0, 1);
+  body.move(0.19);
+  CHECK_FALSE(body.update());
+  CHECK(std::isnan(body.held(body.nodes[0], 0)));
+  body.move(0.3);
+  CHECK(body.update());
+  CHECK(body.held(body.nodes[0], 0) == Catch::Approx(0.2));
+  CHECK(std::isnan(body.held(body.nodes[0], 1))); // slides
+}
+
+TEST_CASE("a smooth wall lets go what it would have to pull", "[unit][contact]")
+{
+  Body body("smooth");
+  body.contact->begin_step(body.domain.initial_x, 0, 1);
+  body.move(0.3);
+  CHECK(body.update());
+  body.move(0.2);
+  body.push(-1e3); // the wall is on the right: to the left is a push
+  CHECK_FALSE(body.update());
+  CHECK(body.held(body.nodes[0], 0) == Catch::Approx(0.2));
+  body.push(1e3);
+  CHECK(body.update());
+  CHECK(std::isnan(body.held(body.nodes[0], 0)));
+}
+
+TEST_CASE("what has touched a rough wall goes with it", "[unit][contact]")
+{
+  Body body("rough");
+  body.contact->begin_step(body.domain.initial_x, 0, 1);
+  body.move(0.3);
+  CHECK(body.update());
+  body.push(1e3);
+  CHECK_FALSE(body.update()); // even when pulled
+  CHECK(body.held(body.nodes[0], 0) == Catch::Approx(0.2));
+  CHECK(body.held(body.nodes[0], 1) == Catch::Approx(-0.5));
+}
