@@ -30,7 +30,7 @@ std::vector<int> watched(const Simulation& sim)
 }
 } // namespace
 
-Monitor::Monitor(const Simulation& sim)
+Monitor::Monitor(Simulation& sim)
     : _sim(sim), _probe(sim.domain.mesh), _names{"time", "step"},
       _watched(watched(sim)), _moved(sim.domain.boundary_names.size(), {0, 0})
 {
@@ -183,7 +183,7 @@ void Monitor::after_step(double dt)
   if (not _points.empty())
   {
     // the probe reads the geometry of the DOLFINx mesh
-    const_cast<mesh::Domain&>(_sim.domain).put_geometry(state.x);
+    _sim.domain.put_geometry(state.x);
     _spots = _probe.locate(_points);
   }
 }

@@ -15,7 +15,7 @@ namespace mmale
 class Monitor
 {
 public:
-  explicit Monitor(const Simulation& sim);
+  explicit Monitor(Simulation& sim);
 
   /// Names of the columns.
   const std::vector<std::string>& names() const { return _names; }
@@ -48,7 +48,7 @@ private:
   double volume() const;
   double integral(std::span<const double> density) const;
 
-  const Simulation& _sim;
+  Simulation& _sim;
   output::Probe _probe;
   std::vector<std::string> _names;
   std::vector<Column> _columns;
@@ -60,6 +60,6 @@ private:
   output::Ledger _start;
   double _volume = 0;              ///< at the end of the last step
   double _lagrangian_volume = 0;   ///< change by the material's own motion
-  std::vector<double> _derived[3]; ///< von Mises, stress, quality
+  std::vector<double> _derived[3]; ///< von Mises, stress, history
 };
 } // namespace mmale

@@ -255,10 +255,11 @@ Result Run::go()
     save_state();
   write_fields();
   finish();
-  Result result{.outcome = _summary.outcome,
-                .completed = completed,
-                .interrupted = _interrupted,
-                .checks_hold = output::all_hold(_summary.checks)};
+  Result result;
+  result.outcome = _summary.outcome;
+  result.completed = completed;
+  result.interrupted = _interrupted;
+  result.checks_hold = output::all_hold(_summary.checks);
   for (const auto& name : _curves.names())
     result.last[name] = _curves.column(name).back();
   return result;

@@ -90,8 +90,12 @@ TEST_CASE("pictures: every column is drawn, the scene's apart from the others")
   }
   SECTION("the scene's charts take their place")
   {
-    scene.output.chart["pull"] = {
-        .x = "load", .y = {"z_B"}, .references = {{2, "two"}}, .title = "T"};
+    scene.output.chart["pull"] = {.x = "load",
+                                  .y = {"z_B"},
+                                  .references = {{2, "two"}},
+                                  .title = "T",
+                                  .x_label = "",
+                                  .y_label = ""};
     const auto c = pictures(scene, columns, references, {}).charts;
     REQUIRE(c.size() == 3);
     CHECK(c[0].name == "pull");

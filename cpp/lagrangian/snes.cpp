@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What PETSc is told of the problem, and what it calls back.
+#include "problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mmale::lagrangian
+{
+void Problem::create_matrix()
+{
+  const auto& map = _domain.nodes();
+  const PetscInt rows = 3 * _domain.num_owned_nodes;
+  MatCreate(_domain.comm, &_J);
+  MatSetSizes(_J, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE);
+  MatSetType(_J, MATAIJ);
+  MatSetBlockSize(_J, 3);
+
+  std::vector<std::int64_t> global(_domain.num_nodes());
+  std::vector<std::int32_t> local(_domain.num_nodes());
+  for (int n = 0; n < _domain.num_nodes(); ++n)
+    local[n] = n;
+  map.local_to_global(local, global);
+  std::vector<PetscInt> row, column;
+  const std::size_t entries =
+      81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
+  row.reserve(entries);
+  column.reserve(entries);
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < 9; ++j)
+      {
+        const auto& nodes = _domain.cells[c];
+        row.push_back(static_cast<PetscInt>(3 * global[nodes[i / 3]] + i % 3));
+        column.push_back(
+            static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
+      }
+  for (PetscInt i = 0; i < rows; ++i)
+  {
+    row.push_back(static_cast<PetscInt>(3 * global[i / 3] + i % 3));
+    column.push_back(row.back());
+  }
+  MatSetPreallocationCOO(_J, static_cast<PetscCount>(row.size()), row.data(),
+                         column.data());
+  _coo.resize(row.size());
+  MatCreateVecs(_J, &_x, &_r);
+}
+
+void Problem::create_solver()
+{
+  SNESCreate(_domain.comm, &_snes);
+  SNESSetOptionsPrefix(_snes, "lagrangian_");
+  SNESSetType(_snes, SNESNEWTONLS);
+  SNESSetFunction(_snes, _r, function, this);
+  SNESSetJacobian(_snes, _J, _J, jacobian, this);
+  SNESSetTolerances(_snes, 0, 0, 0, _options.max_iterations, 10000);
+  SNESSetConvergenceTest(_snes, converged, this, nullptr);
+  if (_options.lag_jacobian > 1)
+  {
+    SNESSetLagJacobian(_snes, _options.lag_jacobian);
+    SNESSetLagPreconditioner(_snes, 1);
+  }
+  SNESLineSearch search;
+  SNESGetLineSearch(_snes, &search);
+  SNESLineSearchSetType(search, _options.line_search ? SNESLINESEARCHBT
+                                                     : SNESLINESEARCHBASIC);
+  SNESLineSearchSetPreCheck(search, precheck, this);
+  KSP ksp;
+  PC pc;
+  SNESGetKSP(_snes, &ksp);
+  KSPSetType(ksp, KSPPREONLY);
+  KSPGetPC(ksp, &pc);
+  KSPSetPreSolve(ksp, before_solve, this);
+  KSPSetPostSolve(ksp, after_solve, this);
+  PCSetType(pc, PCLU);
+  PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
+  if (not _options.petsc.empty())
+    PetscOptionsInsertString(nullptr, _options.petsc.c_str());
+  SNESSetFromOptions(_snes);
+}
+
+PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const auto scope = self._clock.scope("1a law and assembly");
+  self.unpack(x);
+  PetscScalar* out = nullptr;
+  PetscCall(VecGetArray(r, &out));
+  if (self.evaluate())
+    self.assemble_residual(out);
+  else // a norm that no line search accepts
+    std::fill_n(out, 3 * self._domain.num_owned_nodes,
+                std::numeric_limits<double>::quiet_NaN());
+  PetscCall(VecRestoreArray(r, &out));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const auto scope = self._clock.scope("1a law and assembly");
+  const auto& d = self._domain;
+  // displacement rows in units of G, volume rows of l; pressures G / l
+  const double row[2] = {1 / self._stress, 1 / self._length};
+  const double column[2] = {1, self._stress / self._length};
+  for (int c = 0; c < d.num_owned_cells; ++c)
+  {
+    double* A = self._coo.data() + 81 * static_cast<std::size_t>(c);
+    self._element.jacobian(*self._state, c, self._z.array(), self._constants,
+                           A);
+    self.load_jacobian(c, A);
+    for (int i = 0; i < 9; ++i)
+    {
+      const bool held = self._holder[3 * d.cells[c][i / 3] + i % 3] >= 0;
+      for (int j = 0; j < 9; ++j)
+        A[9 * i + j] *= held ? 0 : row[i % 3 == 2] * column[j % 3 == 2];
+    }
+  }
+  double* diagonal =
+      self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
+  for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
+    diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
+  PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::before_solve(KSP, Vec, Vec, void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  self._solving.reset(
+      new output::Clock::Scope(self._clock.scope("1b factorise and solve")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::after_solve(KSP, Vec, Vec, void* context)
+{
+  PetscFunctionBeginUser;
+  static_cast<Problem*>(context)->_solving.reset();
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Shorten a Newton step that would invert a cell.
+PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y, PetscBool* changed,
+                                 void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const auto& d = self._domain;
+  dolfinx::la::Vector<double> step(d.space->dofmap()->index_map, 3);
+  const PetscScalar* from = nullptr;
+  PetscCall(VecGetArrayRead(y, &from));
+  std::copy_n(from, 3 * d.num_owned_nodes, step.mutable_array().begin());
+  PetscCall(VecRestoreArrayRead(y, &from));
+  step.scatter_fwd();
+  const auto z = self._z.array();
+  double share = 1;
+  for (int c = 0; c < d.num_owned_cells; ++c)
+  {
+    std::array<std::array<double, 2>, 3> x, v;
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 2; ++i)
+      {
+        const int n = d.cells[c][k];
+        x[k][i] = self._state->x[2 * n + i] + z[3 * n + i];
+        v[k][i] = -step.array()[3 * n + i];
+      }
+    const auto cross = [](const auto& a, const auto& b)
+    {
+      return (a[1][0] - a[0][0]) * (b[2][1] - b[0][1])
+             - (a[1][1] - a[0][1]) * (b[2][0] - b[0][0]);
+    };
+    // twice the area along the step: a + b t + c t^2, kept above a tenth of a
+    const double a = 0.9 * cross(x, x), b = cross(x, v) + cross(v, x),
+                 q = cross(v, v);
+    const double root = b * b - 4 * a * q;
+    if (root < 0 or (b >= 0 and q >= 0))
+      continue;
+    const double t = 2 * a / (-b + std::sqrt(root));
+    if (t > 0)
+      share = std::min(share, t);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &share, 1, MPI_DOUBLE, MPI_MIN, d.comm);
+  *changed = share < 1 ? PETSC_TRUE : PETSC_FALSE;
+  if (share < 1)
+    PetscCall(VecScale(y, 0.9 * share));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
+                                  PetscReal fnorm, SNESConvergedReason* reason,
+                                  void* context)
+{
+  PetscFunctionBeginUser;
+  auto& self = *static_cast<Problem*>(context);
+  const double tol = self._options.tolerance;
+  *reason = SNES_CONVERGED_ITERATING;
+  if (not std::isfinite(fnorm))
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol)
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  void* log = nullptr;
+  PetscCall(SNESGetApplicationContext(snes, &log));
+  static_cast<NewtonLog*>(log)->residuals.push_back(
+      std::max({self._norm_u, self._norm_p, self._norm_bc}));
+  (void)it;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+} // namespace mmale::lagrangian
