@@ -29,3 +29,11 @@ Environment::~Environment()
   static_cast<void>(PetscFinalize());
 }
 } // namespace mmale
+
+#if defined(__SANITIZE_ADDRESS__)
+/// MPI and PETSc keep memory until the process ends; not ours to report.
+extern "C" const char* __asan_default_options()
+{
+  return "detect_leaks=0";
+}
+#endif
