@@ -33,15 +33,27 @@ def scene(flank, mesh):
 
 
 def drag(z):
-    """Shear strength along a flank of length z, over b = B/2."""
-    return 2 * np.asarray(z) / np.sqrt(3)
+    """Shear strength along a flank of length 2z, over b = B/2 and sigma_y.
+
+    2z: the billet beside the punch is as broad as the punch, and rises by z.
+    """
+    return 4 * np.asarray(z) / np.sqrt(3)
+
+
+def flank_share(run):
+    """Pressure of what the flank bears, over sigma_y; none if released."""
+    c = run.curves
+    return 0.0 - c.get("surface.reaction_y", 0 * c["z_B"]) / (0.5 * 20e3)
+
+
+def flank_share_at(run, z):
+    x = run.curves["z_B"]
+    return float(np.interp(z, x, flank_share(run))) if x[-1] > z - 1e-9 else np.nan
 
 
 def total(run):
     """Pressure of all that the punch feels, its flank too, over sigma_y."""
-    c = run.curves
-    flank = c.get("surface.reaction_y", 0.0)  # nothing is held if released
-    return -(c["punch.reaction_y"] + flank) / (0.5 * 20e3)
+    return run.curves["p_sy"] + flank_share(run)
 
 
 def total_at(run, z):
@@ -52,18 +64,33 @@ def total_at(run, z):
 def draw(runs):
     fig, (left, right) = common.figure(2, width=11.4, height=5)
     colours = dict(zip(FLANKS, common.COLOURS))
-    for flank in FLANKS:
-        for mesh, dash in zip(MESHES, ("--", "-")):
+    z = np.linspace(0, 0.25, 251)
+    for mesh, dash in zip(MESHES, ("--", "-")):
+        for flank in ("released", "smooth"):
             run = runs[flank, mesh]
-            ax = right if flank == "rough" else left
-            look = {"color": colours[flank], "linestyle": dash}
-            text = f"{flank}, edge {mesh[1]} B at the corner"
-            ax.plot(run.curves["z_B"], total(run), label=text, **look)
-            if flank == "smooth":
-                look["linewidth"] = 1
-                right.plot(run.curves["z_B"], total(run), label=text, **look)
-            if run.outcome != "completed":
-                ax.plot(run.reached, total(run)[-1], "X", color=colours[flank])
+            left.plot(
+                run.curves["z_B"],
+                total(run),
+                color=colours[flank],
+                linestyle=dash,
+                label=f"{flank}, edge {mesh[1]} B at the corner",
+            )
+        rough, smooth = runs["rough", mesh], runs["smooth", mesh]
+        parts = {
+            "on the flank": flank_share(rough),
+            "more than smooth on the face": rough.curves["p_sy"]
+            - np.interp(
+                rough.curves["z_B"], smooth.curves["z_B"], smooth.curves["p_sy"]
+            ),
+        }
+        for (text, value), colour in zip(parts.items(), common.COLOURS[2:]):
+            right.plot(
+                rough.curves["z_B"],
+                value,
+                color=colour,
+                linestyle=dash,
+                label=f"{text}, edge {mesh[1]} B",
+            )
     coarse, fine = (runs["smooth", mesh].curves for mesh in MESHES)
     p = np.interp(DEPTHS, fine["z_B"], fine["p_sy"])
     limit = 2 * p - np.interp(DEPTHS, coarse["z_B"], coarse["p_sy"])
@@ -75,27 +102,18 @@ def draw(runs):
         markerfacecolor="white",
         label="smooth, both meshes extrapolated (error ~ h)",
     )
-    z = np.linspace(0, 0.25, 2)
-    for ax in (left, right):
-        ax.axhline(common.EXACT, color="black", linewidth=1, dashes=(6, 3))
-        ax.text(0.252, common.EXACT, "2.9685", va="center", fontsize=8.5)
-        ax.set_xlim(0, 0.25)
-        ax.set_xlabel("penetration $z/B$")
-    for factor, text in ((1, r"$+\,2z/\sqrt{3}B$"), (2, r"$+\,4z/\sqrt{3}B$")):
-        right.plot(
-            z,
-            common.EXACT + factor * drag(z),
-            color="black",
-            linewidth=0.9,
-            dashes=(1.5, 1.5),
-        )
-        right.text(0.252, common.EXACT + factor * drag(0.25), text, va="center")
-    left.set_ylim(2.9, 3.25)
+    right.plot(z, drag(z), color="black", linewidth=0.9, dashes=(1.5, 1.5))
+    right.text(0.252, drag(0.25), r"$4z/\sqrt{3}B$", va="center")
+    left.axhline(common.EXACT, color="black", linewidth=1, dashes=(6, 3))
+    left.text(0.252, common.EXACT, "2.9685", va="center", fontsize=8.5)
+    left.set_ylim(2.9, 3.35)
     left.set_ylabel(r"whole force on the punch, $F/b\sigma_y$")
     left.set_title("Flank released or smooth", fontsize=10)
-    right.set_ylim(2.8, 4.1)
-    right.set_title("Flank rough; dotted: limit load and drag along z, 2z", fontsize=10)
+    right.set_ylabel(r"$\Delta F/b\sigma_y$")
+    right.set_title("What a rough flank adds; dotted: drag along 2z", fontsize=10)
     for ax in (left, right):
+        ax.set_xlim(0, 0.25)
+        ax.set_xlabel("penetration $z/B$")
         ax.legend(fontsize=8.5, loc="upper left")
     common.save(fig, HERE)
 
@@ -108,7 +126,7 @@ def main():
         [
             {"flank": flank, "edge": mesh[0], "edge at corner": mesh[1]}
             | {f"F/b sigma_y at {z}": total_at(run, z) for z in DEPTHS}
-            | {"of it flank's at 0.25": total_at(run, 0.25) - run.at(0.25)}
+            | {f"of it flank's at {z}": flank_share_at(run, z) for z in DEPTHS}
             | {
                 "noise": noise(run),
                 "seconds": run.seconds,
