@@ -178,6 +178,10 @@ void Smoothing::gather(std::int32_t node, std::span<const double> x,
   }
 }
 
+// A worst cell that the move leaves as it is differs in its last digits; these
+// must not decide, or the result would depend on them.
+constexpr double round_off = 1e-12;
+
 /// Try a move and halves of it: `place(part)` is where the node would be.
 /// Returns the length of the step that was made.
 template <class Place>
@@ -195,7 +199,7 @@ double Smoothing::accept(std::int32_t node, std::span<double> x, double floor,
     const double step = dot(to - old, to - old);
     if (not(step > least_step * least_step * size))
       return 0;
-    if (not(worst(_patch, to, _options.measure) >= floor))
+    if (not(worst(_patch, to, _options.measure) >= floor - round_off))
       continue;
     x[2 * node] = to.x;
     x[2 * node + 1] = to.y;

@@ -220,9 +220,12 @@ def rotating_pulse_np(ranks):
 
 
 def piercing_np(ranks):
-    """Newton stops at 1e-8; a hundredfold of it may gather in 50 steps."""
+    """Newton stops at 1e-8, and p agrees to 1e-10 as long as the smoother takes
+    and refuses the same moves. Now and then round-off flips one such decision
+    (a move is taken only if the worst cell gets no worse): 2e-6 to 4e-6 in p
+    were seen, of 3.1."""
     words = ["mesh.refine=1", "stage.push.duration=0.05"]
-    same_on(ranks, "piercing", words, {"p_sy": 1e-6, "z_B": 1e-12})
+    same_on(ranks, "piercing", words, {"p_sy": 1e-5, "z_B": 1e-12})
 
 
 # --- manners --------------------------------------------------------------------
