@@ -167,8 +167,8 @@ std::string Run::explain(const StepControl& control, const StepLog& log) const
 bool Run::stage(const scene::Stage& stage)
 {
   const double begin = _sim.state.time;
-  StepControl control(stage, marks(begin, stage.duration));
   const auto outputs = marks(begin, stage.duration);
+  StepControl control(stage, outputs);
   if (_sim.problem)
     _sim.problem->set_stage(stage);
   while (not control.finished())

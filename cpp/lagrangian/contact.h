@@ -60,7 +60,7 @@ private:
   std::vector<Candidate> _candidates; ///< owned and ghost
   std::vector<double> _rise;          ///< of each wall in this step [m]
   double _gap;                        ///< closer than this is touching [m]
+  double _reach;                      ///< the same for a rough wall [m]
   int _unsettled = -1;
-  double _reach; ///< the same for a rough wall [m]
 };
 } // namespace mmale::lagrangian

@@ -110,6 +110,19 @@ bool Problem::evaluate()
   return not _failed;
 }
 
+/// Vertices of a cell at the end of the step, shape (3, 3) [m].
+std::array<double, 9> Problem::end_geometry(int cell) const
+{
+  std::array<double, 9> x{};
+  for (int v = 0; v < 3; ++v)
+    for (int d = 0; d < 2; ++d)
+    {
+      const int n = _domain.cells[cell][v];
+      x[3 * v + d] = _state->x[2 * n + d] + _z.array()[3 * n + d];
+    }
+  return x;
+}
+
 void Problem::assemble_loads(std::span<double> force)
 {
   for (const Load& load : _loads)
@@ -121,13 +134,9 @@ void Problem::assemble_loads(std::span<double> force)
     {
       if (f.boundary != load.boundary or f.cell >= _domain.num_owned_cells)
         continue;
-      double R[11] = {}, x[9] = {};
+      double R[11] = {};
       const auto& nodes = _domain.cells[f.cell];
-      for (int v = 0; v < 3; ++v)
-        for (int d = 0; d < 2; ++d)
-          x[3 * v + d] =
-              _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
-      _load_R(R, {}, c, x, f.local);
+      _load_R(R, {}, c, end_geometry(f.cell).data(), f.local);
       for (int i = 0; i < 9; ++i)
         force[3 * nodes[i / 3] + i % 3] += R[i];
     }
@@ -144,13 +153,8 @@ void Problem::load_jacobian(int cell, double* J) const
     for (const Load& load : _loads)
       if (load.boundary == f.boundary)
         c.p_a = load.pressure;
-    double A[121] = {}, x[9] = {};
-    const auto& nodes = _domain.cells[cell];
-    for (int v = 0; v < 3; ++v)
-      for (int d = 0; d < 2; ++d)
-        x[3 * v + d] =
-            _state->x[2 * nodes[v] + d] + _z.array()[3 * nodes[v] + d];
-    _load_J(A, {}, c, x, f.local);
+    double A[121] = {};
+    _load_J(A, {}, c, end_geometry(cell).data(), f.local);
     for (int i = 0; i < 9; ++i)
       for (int j = 0; j < 9; ++j)
         J[9 * i + j] += A[11 * i + j];

@@ -73,6 +73,7 @@ private:
   void unpack(Vec x);
   bool evaluate();
   void assemble_residual(double* r);
+  std::array<double, 9> end_geometry(int cell) const;
   void assemble_loads(std::span<double> r);
   void load_jacobian(int cell, double* J) const;
   void agree_on_failure(int cell, const std::string& why);
