@@ -195,8 +195,10 @@ struct Solver
   int max_iterations = 15; ///< a step with more fails and is halved
   int lag_jacobian = 1;    ///< factorise every n-th Newton iteration
   bool line_search = true;
-  bool plastic_bubble = true; ///< METHOD.md, form P; off: noisier pressure
-  std::string petsc;          ///< more PETSc options, prefix `lagrangian_`
+  bool plastic_bubble = true;  ///< METHOD.md, form P; off: noisier pressure
+  double bubble_spring = 0.05; ///< of layout `quadrature`, METHOD.md; 0: steps
+                               ///< fail in plastic flow after remaps
+  std::string petsc;           ///< more PETSc options, prefix `lagrangian_`
 };
 
 enum class RemapMode

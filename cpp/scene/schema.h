@@ -287,6 +287,11 @@ void keys(V& v, Solver& s)
   v({"plastic_bubble", "",
      "The bubble softens as the cell yields; off gives a noisier pressure."},
     s.plastic_bubble);
+  v({"bubble_spring",
+     "-",
+     "Share of the elastic stiffness that holds the bubble, layout quadrature.",
+     {0, 1, false, false}},
+    s.bubble_spring);
   v({"petsc", "", "More PETSc options, each with the prefix lagrangian_."},
     s.petsc);
 }
