@@ -41,6 +41,7 @@ private:
     double divide_by = 1;
   };
   double value(const Column& c) const;
+  double stress(const Column& c) const;
   double tracer(const scene::Curve& c) const;
   double boundary_mean(int boundary, std::span<const double> nodal, int size,
                        int component) const;
