@@ -494,7 +494,8 @@ void Builder::check_hanging(std::span<const std::int64_t> nodes)
                           >= std::abs(along(b, 1) - along(a, 1))
                       ? 0
                       : 1;
-    const auto [low, high] = std::minmax(along(a, d), along(b, d));
+    const double low = std::min(along(a, d), along(b, d)),
+                 high = std::max(along(a, d), along(b, d));
     const auto at = [&](auto n) { return along(n, d); };
     const double length = distance(a, b);
     for (auto it = std::ranges::lower_bound(sorted[d], low, {}, at);
