@@ -170,7 +170,10 @@ bool Run::stage(const scene::Stage& stage)
   const auto outputs = marks(begin, stage.duration);
   StepControl control(stage, outputs);
   if (_sim.problem)
+  {
     _sim.problem->set_stage(stage);
+    _sim.problem->begin_stage(_sim.state);
+  }
   while (not control.finished())
   {
     StepLog log;

@@ -19,6 +19,9 @@ void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out);
 // The outline is null where nothing is known of it.
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out);
+/// Layout and element of the Lagrangian step.
+void check_solver(const Scene& scene, Complaints& out);
+
 void check_remap(const Scene& scene, const Libraries& libraries,
                  const Outline* outline, Complaints& out);
 void check_tracers(const Scene& scene, const Outline* outline, Complaints& out);
