@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "environment.h"
 #include "libraries.h"
+#include "mesh/gmsh.h"
 #include "output/pictures.h"
 #include "run.h"
 #include "scene/describe.h"
@@ -10,10 +11,13 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
 namespace fs = std::filesystem;
 using namespace mmale;
@@ -46,11 +50,32 @@ struct Arguments
   bool keys = false;
 };
 
-/// A run to be made: what differs between members, and its scene.
+/// A run to be made: what differs between members, its scene, and its mesh if
+/// that comes from a file (without cells but on rank 0).
 struct Job
 {
   scene::Member member;
   scene::Scene scene;
+  std::shared_ptr<const mesh::Grid> grid;
+};
+
+/// Meshes from files, each read once: members of a sweep may share them.
+class Meshes
+{
+public:
+  const mesh::Loaded& of(const scene::Scene& scene)
+  {
+    const Key key = {scene.mesh.file, scene.mesh.refine, scene.symmetry,
+                     scene.motion.has_value()};
+    auto at = _loaded.find(key);
+    if (at == _loaded.end())
+      at = _loaded.emplace(key, mesh::load_gmsh(scene)).first;
+    return at->second;
+  }
+
+private:
+  using Key = std::tuple<std::string, double, scene::Symmetry, bool>;
+  std::map<Key, mesh::Loaded> _loaded;
 };
 
 /// What a run is checked against, and the scene that it is known of: changed
@@ -87,9 +112,15 @@ void print(const std::vector<scene::Complaint>& complaints)
 }
 
 /// Read the scene of every member of the sweep; all complaints of all.
+/// @param meshes null on ranks that leave meshes to rank 0
 std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
+                           Meshes* meshes,
                            std::vector<scene::Complaint>& complaints)
 {
+  scene::OutlineReader read_mesh;
+  if (meshes)
+    read_mesh = [meshes](const scene::Scene& scene)
+    { return meshes->of(scene).outline; };
   complaints = file.complaints;
   const scene::Sweep sweep = scene::expand(given.overrides);
   std::ranges::copy(sweep.complaints, std::back_inserter(complaints));
@@ -98,10 +129,15 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
   std::vector<Job> jobs;
   for (const scene::Member& member : sweep.members)
   {
-    scene::Reading reading = scene::read(file.text, given.scene.string(),
-                                         member.overrides, libraries());
+    scene::Reading reading =
+        scene::read(file.text, given.scene.string(), member.overrides,
+                    libraries(), read_mesh);
     std::ranges::copy(reading.complaints, std::back_inserter(complaints));
-    jobs.push_back({member, std::move(reading.scene)});
+    Job job = {member, std::move(reading.scene), nullptr};
+    if (job.scene.mesh.shape == "gmsh" and complaints.empty())
+      job.grid = meshes ? meshes->of(job.scene).grid
+                        : std::make_shared<const mesh::Grid>();
+    jobs.push_back(std::move(job));
   }
   return jobs;
 }
@@ -181,7 +217,7 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
     ends.insert(run_one(comm, job,
                         {folder.empty() ? results : results / folder,
                          scene == reference.scene ? reference.file : "", scene,
-                         given.quiet},
+                         given.quiet, job.grid},
                         row));
     const bool interrupted = row.interrupted;
     rows.push_back(std::move(row));
@@ -206,39 +242,36 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
 {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  scene::FileText file;
-  if (rank == 0)
-    file = scene::load(given.scene);
-  // The same text gives the same complaints on every rank.
-  file.text = broadcast(comm, file.text);
-  const std::string trouble =
-      broadcast(comm, file.complaints.empty() ? "" : file.complaints[0].what);
-  if (rank > 0 and not trouble.empty())
-    file.complaints.push_back({"", trouble, {given.scene.string(), 0}});
-
-  std::vector<scene::Complaint> complaints;
-  const std::vector<Job> jobs = read_jobs(file, given, complaints);
   const fs::path results = results_folder(given);
-  std::string unwritable, reference;
-  if (rank == 0 and complaints.empty())
+  scene::FileText file;
+  std::vector<scene::Complaint> complaints;
+  std::vector<Job> jobs;
+  std::string reference;
+  if (rank == 0)
   {
+    file = scene::load(given.scene);
+    Meshes meshes;
+    jobs = read_jobs(file, given, &meshes, complaints);
     std::error_code error;
-    fs::create_directories(results, error);
+    if (complaints.empty())
+      fs::create_directories(results, error);
     if (error)
-      unwritable = "cannot be made: " + error.message();
+      complaints.push_back(
+          {"", "cannot be made: " + error.message(), {results.string(), 0}});
     const fs::path beside = given.scene.parent_path() / "reference.toml";
     if (fs::exists(beside, error))
       reference = beside.string();
-  }
-  unwritable = broadcast(comm, unwritable);
-  if (not unwritable.empty())
-    complaints.push_back({"", unwritable, {results.string(), 0}});
-  if (not complaints.empty())
-  {
-    if (rank == 0)
+    if (not complaints.empty())
       print(complaints);
-    return mistake;
   }
+  int bad = not complaints.empty();
+  MPI_Bcast(&bad, 1, MPI_INT, 0, comm);
+  if (bad)
+    return mistake;
+  // The same text gives the same scenes on every rank.
+  file.text = broadcast(comm, file.text);
+  if (rank > 0)
+    jobs = read_jobs(file, given, nullptr, complaints);
   // A scene that only its changes make good has no results to compare with.
   const scene::Reading as_written =
       scene::read(file.text, given.scene.string(), {}, libraries());
@@ -257,9 +290,10 @@ Exit check_verb(const Arguments& given)
     if (given.scene.empty())
       return good;
   }
+  Meshes meshes;
   std::vector<scene::Complaint> complaints;
   const std::vector<Job> jobs =
-      read_jobs(scene::load(given.scene), given, complaints);
+      read_jobs(scene::load(given.scene), given, &meshes, complaints);
   if (not complaints.empty())
   {
     print(complaints);

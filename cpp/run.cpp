@@ -85,7 +85,7 @@ std::vector<std::string> names(const output::Ledger& ledger)
 Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
     : _comm(comm), _scene(scene), _options(options),
       _root(dolfinx::MPI::rank(comm) == 0), _end(total_duration(scene)),
-      _sim(comm, scene), _monitor(_sim),
+      _sim(comm, scene, options.grid.get()), _monitor(_sim),
       _curves(make_curves(_root, options, _monitor.names())),
       _fields(_sim.domain.mesh, options.results), _probe(_sim.domain.mesh),
       _progress(0, _end, output::Progress::style(options.quiet or not _root))
