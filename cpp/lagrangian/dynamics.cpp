@@ -18,7 +18,8 @@ void Problem::begin_stage(State& state)
     return;
   }
   const std::size_t size = 2 * static_cast<std::size_t>(_domain.num_nodes());
-  if (state.a.empty())
+  const bool from_statics = state.a.empty();
+  if (from_statics)
   {
     if (state.time > 0) // a static stage has left its motion
       std::ranges::fill(state.v, 0.0);
@@ -27,16 +28,17 @@ void Problem::begin_stage(State& state)
   }
   if (_newmark->scheme().damping_stiffness > 0 and state.p_rate.empty())
     state.p_rate.assign(_domain.num_nodes(), 0);
-  // An absorbing boundary goes on carrying what it carries at rest. Both
-  // collective: all ranks know the stage.
+  // An absorbing boundary goes on carrying what it carried at the end of
+  // statics; what a dynamic stage makes it carry cannot be told from waves.
   int absorbing = not _conditions->absorbing_nodes().empty();
   MPI_Allreduce(MPI_IN_PLACE, &absorbing, 1, MPI_INT, MPI_MAX, _domain.comm);
   if (not absorbing)
     state.held_back.clear();
   else if (state.held_back.empty())
+    state.held_back.assign(size, 0);
+  if (absorbing and from_statics)
   {
     rebalance(state, 0);
-    state.held_back.assign(size, 0);
     for (int n : _conditions->absorbing_nodes())
       for (int i = 2 * n; i < 2 * n + 2; ++i)
         state.held_back[i] = -state.force[i];

@@ -265,6 +265,48 @@ def thick_cylinder_np(ranks):
     same_on(ranks, "thick_cylinder", ["mesh.refine=2"], columns)
 
 
+def vibrating_column():
+    """Statics, a free wave and a base that swallows it, against d'Alembert; a
+    finer mesh and step halve the distance."""
+    coarse, _ = run("vibrating_column")
+    steps = ["stage.swing.step=0.00125", "stage.leave.step=0.00125"]
+    fine, _ = run("vibrating_column", "mesh.cells=[2,80]", *steps, results="fine")
+    errors = []
+    for folder in (coarse, fine):
+        columns = curves(folder)
+        pairs = zip(columns["time"], columns["head"])
+        errors.append(
+            math.sqrt(mean((u - triangle(t)) ** 2 for t, u in pairs if t > 1))
+        )
+    hold(errors[1] < 0.7 * errors[0] < 0.03, f"RMS of the head {errors} mm")
+
+
+def triangle(t):
+    """Of the head over the stages, in mm: up and down in 0.4 s, then through."""
+    phase = (t - 1) / 0.4 % 1
+    swing = -1 + 4 * min(phase, 1 - phase)
+    return swing if t < 1.9 else min((t - 1.9) / 0.1, 1)
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values)
+
+
+def vibrating_column_np(ranks):
+    """480 steps: Newton's tolerance, added up."""
+    columns = {"head": 1e-9, "middle": 1e-9, "energy": 1e-9}
+    same_on(ranks, "vibrating_column", [], columns)
+
+
+def layouts_np(ranks):
+    """The triangles of the points travel through halos of cells."""
+    for points in (3, 6):
+        words = ["mesh.refine=1", "stage.push.duration=0.02"]
+        words += ["solver.layout=quadrature", f"solver.points={points}"]
+        same_on(ranks, "piercing", words, {"p_sy": 1e-5, "z_B": 1e-12})
+
+
 def piercing_np(ranks):
     """Newton stops at 1e-8, and p agrees to 1e-10 as long as the smoother takes
     and refuses the same moves. Now and then round-off flips one such decision
