@@ -53,6 +53,7 @@ Problem::~Problem()
   MatDestroy(&_J);
   VecDestroy(&_x);
   VecDestroy(&_r);
+  VecDestroy(&_unlifted);
 }
 
 void Problem::set_stage(const scene::Stage& stage)

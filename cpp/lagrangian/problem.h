@@ -68,6 +68,18 @@ private:
   static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
   static PetscErrorCode converged(SNES, PetscInt, PetscReal, PetscReal,
                                   PetscReal, SNESConvergedReason*, void*);
+  /// An entry that a symmetric matrix lost with a held column.
+  struct Lift
+  {
+    int row, column; ///< local unknowns, scaled
+    double value;
+  };
+  bool symmetric() const
+  {
+    return _options.factorisation == scene::Factorisation::ldlt;
+  }
+  void scale(int cell, double* A);
+  void lift(Vec b);
   void create_matrix();
   void create_solver();
   void unpack(Vec x);
@@ -119,6 +131,7 @@ private:
   dolfinx::la::Vector<double> _z;     ///< unknowns with units
   dolfinx::la::Vector<double> _force; ///< residual with units
   std::vector<double> _coo;
+  std::vector<Lift> _lift;                       ///< of the matrix in use
   double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
@@ -127,5 +140,6 @@ private:
   SNES _snes = nullptr;
   Mat _J = nullptr;
   Vec _x = nullptr, _r = nullptr;
+  Vec _unlifted = nullptr; ///< right-hand side while KSP works
 };
 } // namespace mmale::lagrangian

@@ -45,6 +45,12 @@ void Problem::create_matrix()
                          column.data());
   _coo.resize(row.size());
   MatCreateVecs(_J, &_x, &_r);
+  if (symmetric())
+  {
+    MatSetOption(_J, MAT_SYMMETRIC, PETSC_TRUE);
+    MatSetOption(_J, MAT_SYMMETRY_ETERNAL, PETSC_TRUE);
+    VecDuplicate(_r, &_unlifted);
+  }
 }
 
 void Problem::create_solver()
@@ -70,10 +76,20 @@ void Problem::create_solver()
   PC pc;
   SNESGetKSP(_snes, &ksp);
   KSPSetType(ksp, KSPPREONLY);
+  if (_options.lag_factor > 1)
+  {
+    // A factor serves the rest of its step at most, so that a run which is
+    // resumed finds the factors that it would have had.
+    SNESSetLagPreconditioner(_snes, _options.lag_factor);
+    // A poor direction is Newton's line search's business.
+    SNESSetMaxLinearSolveFailures(_snes, _options.max_iterations);
+    KSPSetType(ksp, KSPFGMRES);
+    KSPSetTolerances(ksp, 1e-3, 0, PETSC_CURRENT, 30);
+  }
   KSPGetPC(ksp, &pc);
   KSPSetPreSolve(ksp, before_solve, this);
   KSPSetPostSolve(ksp, after_solve, this);
-  PCSetType(pc, PCLU);
+  PCSetType(pc, symmetric() ? PCCHOLESKY : PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
   if (not _options.petsc.empty())
     PetscOptionsInsertString(nullptr, _options.petsc.c_str());
@@ -97,27 +113,68 @@ PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// Units of the unknowns and equations, held ones out.
+void Problem::scale(int cell, double* A)
+{
+  // displacement rows in units of G, volume rows of l; pressures G / l: what
+  // is symmetric stays so
+  const double row[2] = {1 / _stress, 1 / _length};
+  const double column[2] = {1, _stress / _length};
+  std::array<int, 9> unknown;
+  for (int i = 0; i < 9; ++i)
+    unknown[i] = 3 * _domain.cells[cell][i / 3] + i % 3;
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < 9; ++j)
+      A[9 * i + j] *= row[i % 3 == 2] * column[j % 3 == 2];
+  if (symmetric())
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < i; ++j)
+        A[9 * i + j] = A[9 * j + i] = 0.5 * (A[9 * i + j] + A[9 * j + i]);
+  for (int i = 0; i < 9; ++i)
+  {
+    if (_holder[unknown[i]] < 0)
+      continue;
+    std::fill_n(A + 9 * i, 9, 0.0);
+    for (int j = 0; symmetric() and j < 9; ++j)
+    {
+      double& a = A[9 * j + i];
+      if (a != 0 and _holder[unknown[j]] < 0)
+        _lift.push_back({unknown[j], unknown[i], a});
+      a = 0;
+    }
+  }
+}
+
+/// Take what held unknowns still have to move to the right-hand side.
+void Problem::lift(Vec b)
+{
+  dolfinx::la::Vector<double> moved(_domain.space->dofmap()->index_map, 3);
+  moved.set(0);
+  const auto z = _z.array();
+  for (const auto& [row, column, value] : _lift)
+    moved.mutable_array()[row] += value * (z[column] - _increment[column]);
+  moved.scatter_rev(std::plus<double>());
+  PetscScalar* to = nullptr;
+  VecGetArray(b, &to);
+  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+    to[i] -= moved.array()[i];
+  VecRestoreArray(b, &to);
+}
+
 PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
 {
   PetscFunctionBeginUser;
   auto& self = *static_cast<Problem*>(context);
   const auto scope = self._clock.scope("1a law and assembly");
   const auto& d = self._domain;
-  // displacement rows in units of G, volume rows of l; pressures G / l
-  const double row[2] = {1 / self._stress, 1 / self._length};
-  const double column[2] = {1, self._stress / self._length};
+  self._lift.clear();
   for (int c = 0; c < d.num_owned_cells; ++c)
   {
     double* A = self._coo.data() + 81 * static_cast<std::size_t>(c);
     self._element.jacobian(*self._state, c, self._z.array(), self._constants,
                            A);
     self.load_jacobian(c, A);
-    for (int i = 0; i < 9; ++i)
-    {
-      const bool held = self._holder[3 * d.cells[c][i / 3] + i % 3] >= 0;
-      for (int j = 0; j < 9; ++j)
-        A[9 * i + j] *= held ? 0 : row[i % 3 == 2] * column[j % 3 == 2];
-    }
+    self.scale(c, A);
   }
   double* diagonal =
       self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
@@ -127,19 +184,28 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::before_solve(KSP, Vec, Vec, void* context)
+PetscErrorCode Problem::before_solve(KSP, Vec b, Vec, void* context)
 {
   PetscFunctionBeginUser;
   auto& self = *static_cast<Problem*>(context);
   self._solving.reset(
       new output::Clock::Scope(self._clock.scope("1b factorise and solve")));
+  if (self.symmetric())
+  {
+    PetscCall(VecCopy(b, self._unlifted));
+    if (self._norm_bc > 0)
+      self.lift(b);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::after_solve(KSP, Vec, Vec, void* context)
+PetscErrorCode Problem::after_solve(KSP, Vec b, Vec, void* context)
 {
   PetscFunctionBeginUser;
-  static_cast<Problem*>(context)->_solving.reset();
+  auto& self = *static_cast<Problem*>(context);
+  if (self.symmetric()) // SNES goes on with it
+    PetscCall(VecCopy(self._unlifted, b));
+  self._solving.reset();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -151,6 +151,14 @@ enum class Tangent
   continuum
 };
 
+/// How Newton's matrix is factorised.
+enum class Factorisation
+{
+  lu,  ///< the whole tangent
+  ldlt ///< its symmetric part: half the work; what is left out of the tangent
+       ///< costs iterations, never accuracy
+};
+
 /// Knobs of the Lagrangian step.
 struct Solver
 {
@@ -159,7 +167,9 @@ struct Solver
   bool geometric_stiffness = true; ///< off: slower Newton, same answer
   double tolerance = 1e-8; ///< relative to the norm of the cells' own forces
   int max_iterations = 15; ///< a step with more fails and is halved
-  int lag_jacobian = 1;    ///< factorise every n-th Newton iteration
+  Factorisation factorisation = Factorisation::lu;
+  int lag_jacobian = 1; ///< matrix and factor are made every n-th iteration
+  int lag_factor = 1;   ///< the factor alone; between, GMRES solves with it
   bool line_search = true;
   bool plastic_bubble = true; ///< METHOD.md, form P; off: noisier pressure
   std::string petsc;          ///< more PETSc options, prefix `lagrangian_`

@@ -34,7 +34,8 @@ concept Table = OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition,
                       ReferenceLine, Chart, Picture, Output, Scene>;
 
 template <class T>
-concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Tangent, RemapMode>;
+concept Enumeration =
+    OneOf<T, Symmetry, Diagonal, Element, Tangent, Factorisation, RemapMode>;
 
 /// Names of an enumeration, in the order of its values.
 template <Enumeration E>
@@ -59,6 +60,11 @@ const std::vector<std::string>& names()
   else if constexpr (std::same_as<E, Tangent>)
   {
     static const Names list = {"consistent", "continuum"};
+    return list;
+  }
+  else if constexpr (std::same_as<E, Factorisation>)
+  {
+    static const Names list = {"lu", "ldlt"};
     return list;
   }
   else
@@ -232,9 +238,17 @@ void keys(V& v, Solver& s)
   v({"max_iterations", "-", "A step with more Newton iterations is halved.",
      at_least(1)},
     s.max_iterations);
-  v({"lag_jacobian", "-", "The matrix is factorised every n-th iteration.",
-     at_least(1)},
+  v({"factorisation", "",
+     "Factors of Newton's matrix: lu, or ldlt of its symmetric part."},
+    s.factorisation);
+  v({"lag_jacobian", "-",
+     "The matrix is made and factorised every n-th iteration.", at_least(1)},
     s.lag_jacobian);
+  v({"lag_factor", "-",
+     "The matrix is factorised every n-th iteration; between, GMRES uses the "
+     "old factor.",
+     at_least(1)},
+    s.lag_factor);
   v({"line_search", "", "Line search in Newton's method."}, s.line_search);
   v({"plastic_bubble", "",
      "The bubble softens as the cell yields; off gives a noisier pressure."},
