@@ -66,6 +66,15 @@ double Element::shear_modulus() const
   return std::visit([](const auto& l) { return l.shear_modulus(); }, _law);
 }
 
+bool Element::symmetric() const
+{
+  // the bubble's plastic flow enters the volume equation alone
+  return std::visit(
+      [this](const auto& l)
+      { return l.symmetric and not(l.yields and _options.plastic_bubble); },
+      _law);
+}
+
 double Element::density() const
 {
   return std::visit([](const auto& l) { return l.density; }, _law);

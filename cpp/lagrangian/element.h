@@ -58,6 +58,10 @@ public:
   /// Square of the step's strain, a measure for the volume equation [-].
   double strain_squared(int cell) const;
 
+  /// Whether the tangent is symmetric but for the geometry's share, which is of
+  /// the order of the step's strain and of stress over stiffness.
+  bool symmetric() const;
+
   int num_history() const { return _num_history; }
   double shear_modulus() const;
   double density() const;

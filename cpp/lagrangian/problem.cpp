@@ -282,6 +282,7 @@ void Problem::prepare(const State& state, double t0, double t1)
 /// What is held in this step: the stage's conditions, and contact.
 void Problem::hold()
 {
+  _held_anew = true;
   _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
@@ -307,7 +308,7 @@ bool Problem::newton(NewtonLog& log)
 {
   log.residuals.clear();
   log.failure = {};
-  SNESSetApplicationContext(_snes, &log);
+  _log = &log;
   _failed = false;
   SNESSolve(_snes, nullptr, _x);
   PetscInt iterations = 0;

@@ -63,6 +63,7 @@ public:
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);
   static PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*);
+  static PetscErrorCode reuse(SNES, PetscInt);
   static PetscErrorCode before_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode after_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
@@ -76,7 +77,9 @@ private:
   };
   bool symmetric() const
   {
-    return _options.factorisation == scene::Factorisation::ldlt;
+    return _options.factorisation == scene::Factorisation::ldlt
+           or (_options.factorisation == scene::Factorisation::automatic
+               and _element.symmetric());
   }
   void scale(int cell, double* A);
   void lift(Vec b);
@@ -135,6 +138,8 @@ private:
   double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
+  NewtonLog* _log = nullptr; ///< of the Newton run that goes on
+  bool _held_anew = true;    ///< what is held differs from the matrix's
   std::unique_ptr<output::Clock::Scope> _solving; ///< while KSP works
 
   SNES _snes = nullptr;

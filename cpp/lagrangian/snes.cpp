@@ -67,6 +67,11 @@ void Problem::create_solver()
     SNESSetLagJacobian(_snes, _options.lag_jacobian);
     SNESSetLagPreconditioner(_snes, 1);
   }
+  else if (_options.lag_jacobian == 0)
+  {
+    SNESSetApplicationContext(_snes, this);
+    SNESSetUpdate(_snes, reuse);
+  }
   SNESLineSearch search;
   SNESGetLineSearch(_snes, &search);
   SNESLineSearchSetType(search, _options.line_search ? SNESLINESEARCHBT
@@ -76,21 +81,21 @@ void Problem::create_solver()
   PC pc;
   SNESGetKSP(_snes, &ksp);
   KSPSetType(ksp, KSPPREONLY);
-  if (_options.lag_factor > 1)
-  {
-    // A factor serves the rest of its step at most, so that a run which is
-    // resumed finds the factors that it would have had.
-    SNESSetLagPreconditioner(_snes, _options.lag_factor);
-    // A poor direction is Newton's line search's business.
-    SNESSetMaxLinearSolveFailures(_snes, _options.max_iterations);
-    KSPSetType(ksp, KSPFGMRES);
-    KSPSetTolerances(ksp, 1e-3, 0, PETSC_CURRENT, 30);
-  }
   KSPGetPC(ksp, &pc);
   KSPSetPreSolve(ksp, before_solve, this);
   KSPSetPostSolve(ksp, after_solve, this);
   PCSetType(pc, symmetric() ? PCCHOLESKY : PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
+  // The system is scaled by its units already: MUMPS's own scaling and its
+  // search for a large diagonal cost more than they give.
+  for (const char* option :
+       {"-lagrangian_mat_mumps_icntl_6", "-lagrangian_mat_mumps_icntl_8"})
+  {
+    PetscBool given = PETSC_FALSE;
+    PetscOptionsHasName(nullptr, nullptr, option, &given);
+    if (not given)
+      PetscOptionsSetValue(nullptr, option, "0");
+  }
   if (not _options.petsc.empty())
     PetscOptionsInsertString(nullptr, _options.petsc.c_str());
   SNESSetFromOptions(_snes);
@@ -167,6 +172,7 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   auto& self = *static_cast<Problem*>(context);
   const auto scope = self._clock.scope("1a law and assembly");
   const auto& d = self._domain;
+  self._held_anew = false;
   self._lift.clear();
   for (int c = 0; c < d.num_owned_cells; ++c)
   {
@@ -181,6 +187,22 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
     diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
   PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Whether the last factor still serves in this iteration. It never serves in
+/// the next step: a run that is resumed there would not have it.
+PetscErrorCode Problem::reuse(SNES snes, PetscInt it)
+{
+  PetscFunctionBeginUser;
+  void* context = nullptr;
+  PetscCall(SNESGetApplicationContext(snes, &context));
+  const auto& self = *static_cast<Problem*>(context);
+  const auto& r = self._log->residuals;
+  const bool serves =
+      it > 0 and not self._held_anew
+      and r[it] * (r[it] / r[it - 1]) <= self._options.tolerance;
+  PetscCall(SNESSetLagJacobian(snes, serves ? -1 : 1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -256,7 +278,7 @@ PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y, PetscBool* changed,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
+PetscErrorCode Problem::converged(SNES, PetscInt it, PetscReal, PetscReal,
                                   PetscReal fnorm, SNESConvergedReason* reason,
                                   void* context)
 {
@@ -268,9 +290,7 @@ PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
     *reason = SNES_DIVERGED_FNORM_NAN;
   else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
-  void* log = nullptr;
-  PetscCall(SNESGetApplicationContext(snes, &log));
-  static_cast<NewtonLog*>(log)->residuals.push_back(
+  self._log->residuals.push_back(
       std::max({self._norm_u, self._norm_p, self._norm_bc}));
   (void)it;
   PetscFunctionReturn(PETSC_SUCCESS);

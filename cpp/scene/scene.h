@@ -154,7 +154,8 @@ enum class Tangent
 /// How Newton's matrix is factorised.
 enum class Factorisation
 {
-  lu,  ///< the whole tangent
+  automatic, ///< ldlt where the law's tangent is symmetric, lu elsewhere
+  lu,        ///< the whole tangent
   ldlt ///< its symmetric part: half the work; what is left out of the tangent
        ///< costs iterations, never accuracy
 };
@@ -167,9 +168,9 @@ struct Solver
   bool geometric_stiffness = true; ///< off: slower Newton, same answer
   double tolerance = 1e-8; ///< relative to the norm of the cells' own forces
   int max_iterations = 15; ///< a step with more fails and is halved
-  Factorisation factorisation = Factorisation::lu;
-  int lag_jacobian = 1; ///< matrix and factor are made every n-th iteration
-  int lag_factor = 1;   ///< the factor alone; between, GMRES solves with it
+  Factorisation factorisation = Factorisation::automatic;
+  int lag_jacobian = 0; ///< matrix and factor are made every n-th iteration; 0:
+                        ///< but where one more with the last one will do
   bool line_search = true;
   bool plastic_bubble = true; ///< METHOD.md, form P; off: noisier pressure
   std::string petsc;          ///< more PETSc options, prefix `lagrangian_`

@@ -64,7 +64,7 @@ const std::vector<std::string>& names()
   }
   else if constexpr (std::same_as<E, Factorisation>)
   {
-    static const Names list = {"lu", "ldlt"};
+    static const Names list = {"automatic", "lu", "ldlt"};
     return list;
   }
   else
@@ -242,13 +242,9 @@ void keys(V& v, Solver& s)
      "Factors of Newton's matrix: lu, or ldlt of its symmetric part."},
     s.factorisation);
   v({"lag_jacobian", "-",
-     "The matrix is made and factorised every n-th iteration.", at_least(1)},
+     "The matrix is made and factorised every n-th iteration; 0: as needed.",
+     at_least(0)},
     s.lag_jacobian);
-  v({"lag_factor", "-",
-     "The matrix is factorised every n-th iteration; between, GMRES uses the "
-     "old factor.",
-     at_least(1)},
-    s.lag_factor);
   v({"line_search", "", "Line search in Newton's method."}, s.line_search);
   v({"plastic_bubble", "",
      "The bubble softens as the cell yields; off gives a noisier pressure."},
