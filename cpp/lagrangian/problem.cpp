@@ -40,8 +40,6 @@ Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
   const double rho = _element->density(), G = _element->shear_modulus();
   _loads.set_impedance(std::sqrt(rho * (_element->bulk_modulus() + 4 * G / 3)),
                        std::sqrt(rho * G));
-  create_matrix();
-  create_solver();
 }
 
 Problem::~Problem()
@@ -50,6 +48,7 @@ Problem::~Problem()
   MatDestroy(&_J);
   VecDestroy(&_x);
   VecDestroy(&_r);
+  VecDestroy(&_unlifted);
 }
 
 void Problem::set_stage(const scene::Stage& stage)
@@ -62,6 +61,7 @@ void Problem::set_stage(const scene::Stage& stage)
   if (stage.dynamics)
     _newmark.emplace(_domain, _symmetry, stage.dynamics->resolved());
   _element->set_newmark(_newmark ? &*_newmark : nullptr);
+  choose_solver();
 }
 
 void Problem::unpack(Vec x)
@@ -145,10 +145,11 @@ void Problem::assemble_residual(double* r)
   }
 
   double norm[3] = {0, 0, 0};
+  const double weight = _newmark ? _newmark->weight() : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
   {
     const bool pressure = i % 3 == 2;
-    r[i] = force[i] / (pressure ? _length : _stress);
+    r[i] = pressure ? weight * force[i] / _length : force[i] / _stress;
     if (_holder[i] >= 0)
     {
       r[i] = z[i] - _increment[i];
@@ -228,6 +229,7 @@ void Problem::prepare(const State& state, double t0, double t1)
 /// What is held in this step: the stage's conditions, and contact.
 void Problem::hold()
 {
+  _held_anew = true;
   _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
@@ -265,7 +267,7 @@ bool Problem::newton(NewtonLog& log)
 {
   log.residuals.clear();
   log.failure = {};
-  SNESSetApplicationContext(_snes, &log);
+  _log = &log;
   _failed = false;
   _element->begin_step();
   SNESSolve(_snes, nullptr, _x);
