@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "environment.h"
+#include <csignal>
 #include <dolfinx/common/log.h>
+#include <hdf5.h>
 #include <petscsys.h>
 #include <spdlog/spdlog.h>
 #include <stdexcept>
@@ -10,6 +12,10 @@ namespace mmale
 Environment::Environment(std::string program, std::vector<std::string> options)
     : _words(std::move(options))
 {
+  // A file that may not grow is an error of the write, not the end of us.
+  std::signal(SIGXFSZ, SIG_IGN);
+  // What HDF5 could not write, it is not to try again at the end.
+  H5dont_atexit();
   _words.insert(_words.begin(), std::move(program));
   for (std::string& word : _words)
     _arguments.push_back(word.data());

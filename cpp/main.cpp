@@ -12,6 +12,7 @@
 #include <iostream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -32,8 +33,7 @@ enum Exit
 
 constexpr const char* exit_help =
     "Exit code: 0 all runs completed; 1 mistake in scene or command line;\n"
-    "2 failure of the program; 3 a run stopped early, its last state is "
-    "saved;\n4 completed, but a check of reference.toml does not hold.\n"
+    "2 failure of the program; 3 a run stopped early, --resume goes on;\n4 completed, but a check of reference.toml does not hold.\n"
     "Words after -- go to PETSc.";
 
 /// The words of the command line.
@@ -44,6 +44,7 @@ struct Arguments
   fs::path results;
   bool quiet = false;
   bool keys = false;
+  bool resume = false;
 };
 
 /// A run to be made: what differs between members, and its scene.
@@ -51,6 +52,8 @@ struct Job
 {
   scene::Member member;
   scene::Scene scene;
+  std::string described = {}; ///< the scene as understood
+  Resumption begin = {};
 };
 
 /// What a run is checked against, and the scene that it is known of: changed
@@ -102,6 +105,7 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
                                          member.overrides, libraries());
     std::ranges::copy(reading.complaints, std::back_inserter(complaints));
     jobs.push_back({member, std::move(reading.scene)});
+    jobs.back().described = scene::describe(jobs.back().scene);
   }
   return jobs;
 }
@@ -135,7 +139,9 @@ Exit run_one(MPI_Comm comm, const Job& job, const RunOptions& options,
 {
   try
   {
-    const Result result = run(comm, job.scene, options);
+    const Result result = job.begin.way == Resumption::Way::completed
+                              ? job.begin.result
+                              : run(comm, job.scene, options);
     row.interrupted = result.interrupted;
     row.outcome = result.outcome;
     row.last = result.last;
@@ -177,12 +183,16 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
                 << job.member.folder << std::endl;
     scene::Row row = {job.member.swept, "", {}};
     const fs::path folder = job.member.folder;
-    const std::string scene = scene::describe(job.scene);
-    ends.insert(run_one(comm, job,
-                        {folder.empty() ? results : results / folder,
-                         scene == reference.scene ? reference.file : "", scene,
-                         given.quiet},
-                        row));
+    if (rank == 0 and job.begin.way == Resumption::Way::completed)
+      std::cout << "mmale: " << (results / folder).string()
+                << ": this run is completed, nothing is left to do"
+                << std::endl;
+    ends.insert(run_one(
+        comm, job,
+        {folder.empty() ? results : results / folder,
+         job.described == reference.scene ? reference.file : "", job.described,
+         given.quiet, job.begin.way == Resumption::Way::resume},
+        row));
     const bool interrupted = row.interrupted;
     rows.push_back(std::move(row));
     if (rank == 0 and jobs.size() > 1
@@ -201,6 +211,39 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
   return good;
 }
 
+/// What --resume finds for each run, agreed on by all ranks.
+void look_for_checkpoints(MPI_Comm comm, std::vector<Job>& jobs,
+                          const fs::path& results,
+                          std::vector<scene::Complaint>& complaints)
+{
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string lines;
+  bool any = false;
+  for (Job& job : jobs)
+  {
+    const fs::path folder = job.member.folder;
+    if (rank == 0)
+      job.begin
+          = look_for_checkpoint(folder.empty() ? results : results / folder,
+                                job.scene, job.described);
+    int way[2] = {static_cast<int>(job.begin.way), job.begin.result.checks_hold};
+    MPI_Bcast(way, 2, MPI_INT, 0, comm);
+    job.begin.way = static_cast<Resumption::Way>(way[0]);
+    job.begin.result.completed = true;
+    job.begin.result.checks_hold = way[1] != 0;
+    any = any or job.begin.way != Resumption::Way::start;
+    for (const auto& line : job.begin.complaints)
+      lines += line + "\n";
+  }
+  // Of a sweep's runs some may not have begun; with none there is a mistake.
+  if (not any)
+    lines = results.string() + ": there is no checkpoint to resume from\n";
+  std::istringstream told(broadcast(comm, lines));
+  for (std::string line; std::getline(told, line);)
+    complaints.push_back({"", line, {}});
+}
+
 /// `mmale run`: rank 0 reads, all ranks agree before anything starts.
 Exit run_verb(MPI_Comm comm, const Arguments& given)
 {
@@ -217,7 +260,7 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
     file.complaints.push_back({"", trouble, {given.scene.string(), 0}});
 
   std::vector<scene::Complaint> complaints;
-  const std::vector<Job> jobs = read_jobs(file, given, complaints);
+  std::vector<Job> jobs = read_jobs(file, given, complaints);
   const fs::path results = results_folder(given);
   std::string unwritable, reference;
   if (rank == 0 and complaints.empty())
@@ -233,6 +276,8 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
   unwritable = broadcast(comm, unwritable);
   if (not unwritable.empty())
     complaints.push_back({"", unwritable, {results.string(), 0}});
+  if (given.resume and complaints.empty())
+    look_for_checkpoints(comm, jobs, results, complaints);
   if (not complaints.empty())
   {
     if (rank == 0)
@@ -296,6 +341,8 @@ void define(CLI::App& app, Arguments& given)
   run->add_option("--results", given.results,
                   "where to write; default results/<name of the scene>")
       ->type_name("DIR");
+  run->add_flag("--resume", given.resume,
+                "Go on from the checkpoint in the folder of the results");
   run->add_flag("--quiet", given.quiet, "No progress on the screen");
   run->footer(exit_help);
   CLI::App* check = app.add_subcommand(

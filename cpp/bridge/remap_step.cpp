@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "output/archive.h"
 #include "placement.h"
 #include "remap/quality/quality.h"
 #include "remap/remap.h"
@@ -314,6 +315,18 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
   host.sum(std::span(&clipped, 1));
   log.clipped = static_cast<std::int64_t>(clipped);
   log.clipped_largest = largest;
+}
+
+void RemapStep::keep(output::Archive& archive)
+{
+  Impl& m = *_impl;
+  archive("remap/home", Entity::node, m.home);
+  if (m.placement)
+    m.placement->keep(archive);
+  archive("remap/cell_volume", m.ledger.cell_volume);
+  archive("remap/node_volume", m.ledger.node_volume);
+  archive("remap/cells", m.ledger.cells);
+  archive("remap/nodes", m.ledger.nodes);
 }
 
 void RemapStep::run(State& state, RemapLog& log)

@@ -10,6 +10,11 @@
 #include <petscsnes.h>
 #include <string>
 
+namespace mmale::output
+{
+class Archive;
+}
+
 /// Equilibrium at the end of a step, by PETSc SNES (METHOD.md, step 1).
 namespace mmale::lagrangian
 {
@@ -59,6 +64,9 @@ public:
   std::array<double, 2> mismatch(const State& state) const;
 
   const Element& element() const { return _element; }
+
+  /// What steers the steps to come, besides the state; after `set_stage`.
+  void keep(output::Archive& archive);
 
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);
