@@ -154,7 +154,10 @@ bool write_one(hid_t file, MPI_Comm comm, const Dataset& d)
                      H5Sclose);
   const Handle groups(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(groups, 1);
-  Handle set(H5Dcreate2(file, d.name.c_str(), type, space, groups, H5P_DEFAULT,
+  const Handle as_is(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(as_is, false); // the same run, the same file
+  H5Pset_fill_time(as_is, H5D_FILL_TIME_NEVER);
+  const Handle set(H5Dcreate2(file, d.name.c_str(), type, space, groups, as_is,
                         H5P_DEFAULT),
              H5Dclose);
   if (set < 0)
@@ -348,8 +351,8 @@ void DatasetReader::read(const std::string& name, std::int64_t type,
        and H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size,
                                nullptr)
                < 0)
-      or H5Dread(set, type, dims > 0 ? memory : H5S_ALL,
-                 dims > 0 ? space : H5S_ALL, H5P_DEFAULT, to)
+      or H5Dread(set, type, dims > 0 ? hid_t(memory) : H5S_ALL,
+                 dims > 0 ? hid_t(space) : H5S_ALL, H5P_DEFAULT, to)
              < 0)
     damaged(name);
 }
