@@ -33,7 +33,8 @@ enum Exit
 
 constexpr const char* exit_help =
     "Exit code: 0 all runs completed; 1 mistake in scene or command line;\n"
-    "2 failure of the program; 3 a run stopped early, --resume goes on;\n4 completed, but a check of reference.toml does not hold.\n"
+    "2 failure of the program; 3 a run stopped early, --resume goes on;\n4 "
+    "completed, but a check of reference.toml does not hold.\n"
     "Words after -- go to PETSc.";
 
 /// The words of the command line.
@@ -187,12 +188,12 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
       std::cout << "mmale: " << (results / folder).string()
                 << ": this run is completed, nothing is left to do"
                 << std::endl;
-    ends.insert(run_one(
-        comm, job,
-        {folder.empty() ? results : results / folder,
-         job.described == reference.scene ? reference.file : "", job.described,
-         given.quiet, job.begin.way == Resumption::Way::resume},
-        row));
+    ends.insert(run_one(comm, job,
+                        {folder.empty() ? results : results / folder,
+                         job.described == reference.scene ? reference.file : "",
+                         job.described, given.quiet,
+                         job.begin.way == Resumption::Way::resume},
+                        row));
     const bool interrupted = row.interrupted;
     rows.push_back(std::move(row));
     if (rank == 0 and jobs.size() > 1
@@ -224,10 +225,11 @@ void look_for_checkpoints(MPI_Comm comm, std::vector<Job>& jobs,
   {
     const fs::path folder = job.member.folder;
     if (rank == 0)
-      job.begin
-          = look_for_checkpoint(folder.empty() ? results : results / folder,
-                                job.scene, job.described);
-    int way[2] = {static_cast<int>(job.begin.way), job.begin.result.checks_hold};
+      job.begin =
+          look_for_checkpoint(folder.empty() ? results : results / folder,
+                              job.scene, job.described);
+    int way[2] = {static_cast<int>(job.begin.way),
+                  job.begin.result.checks_hold};
     MPI_Bcast(way, 2, MPI_INT, 0, comm);
     job.begin.way = static_cast<Resumption::Way>(way[0]);
     job.begin.result.completed = true;

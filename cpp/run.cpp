@@ -64,8 +64,8 @@ private:
   output::Progress _progress;
   output::Summary _summary;
   output::CheckpointHeader _header;
-  int _stage = 0;     ///< the present one
-  double _begin = 0;  ///< of the present stage [s]
+  int _stage = 0;             ///< the present one
+  double _begin = 0;          ///< of the present stage [s]
   std::vector<double> _marks; ///< of the present stage
   std::optional<StepControl> _control;
   double _checkpoint_due = 0; ///< wall time [s]
@@ -293,8 +293,8 @@ void Run::save()
   keep(archive);
   archive.write(_options.results / output::checkpoint_name);
   const double t1 = _sim.clock.wall();
-  _checkpoint_due
-      = t1 + output::checkpoint_wait(_scene.output.checkpoint_every, t1 - t0);
+  _checkpoint_due =
+      t1 + output::checkpoint_wait(_scene.output.checkpoint_every, t1 - t0);
 }
 
 /// Take everything from the checkpoint.
@@ -390,13 +390,13 @@ bool Run::stage()
 
 std::vector<output::Timing> Run::timings() const
 {
-  return _sim.clock.timings(
-      _summary.cells,
-      [this](std::span<double> v)
-      {
-        MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()),
-                      MPI_DOUBLE, MPI_MAX, _comm);
-      });
+  return _sim.clock.timings(_summary.cells,
+                            [this](std::span<double> v)
+                            {
+                              MPI_Allreduce(MPI_IN_PLACE, v.data(),
+                                            static_cast<int>(v.size()),
+                                            MPI_DOUBLE, MPI_MAX, _comm);
+                            });
 }
 
 void Run::finish()
@@ -507,8 +507,7 @@ Resumption look_for_checkpoint(const std::filesystem::path& results,
   const auto at = static_cast<std::size_t>(found.header.standing.stage);
   if (not out.complaints.empty() or not found.header.completed
       or at + 1 < scene.stage.size()
-      or scene.stage.at(at).duration
-             > found.header.standing.time * (1 + 1e-12))
+      or scene.stage.at(at).duration > found.header.standing.time * (1 + 1e-12))
     return out;
   out.way = Resumption::Way::completed;
   out.result.outcome = "completed";

@@ -109,9 +109,8 @@ Content Archive::read(const DatasetReader& reader, const Item& item) const
   const auto [rows, width] = reader.shape(item.name);
   if (rows != b.rows() or width != item.width)
     throw std::runtime_error(_file.string() + " is of another mesh: "
-                             + item.name + " has "
-                             + std::to_string(rows) + " rows, not "
-                             + std::to_string(b.rows()));
+                             + item.name + " has " + std::to_string(rows)
+                             + " rows, not " + std::to_string(b.rows()));
   return reader.numbers(item.name, b.begin(), b.count());
 }
 
@@ -120,8 +119,8 @@ const Archive::Item& Archive::find(const std::string& name,
 {
   const auto at = std::ranges::find(_items, name, &Item::name);
   if (at == _items.end() or at->kind != kind)
-    throw std::runtime_error(_file.string() + " has no '" + name + "' ("
-                             + kind + ")");
+    throw std::runtime_error(_file.string() + " has no '" + name + "' (" + kind
+                             + ")");
   return *at;
 }
 
@@ -229,8 +228,8 @@ void Archive::write(const std::filesystem::path& file) const
 {
   std::string list;
   for (const Item& item : _items)
-    list += item.kind + " " + std::to_string(item.width) + " " + item.name
-            + "\n";
+    list +=
+        item.kind + " " + std::to_string(item.width) + " " + item.name + "\n";
   std::vector<Dataset> datasets;
   for (const Item& item : _items)
     datasets.push_back(dataset(item));

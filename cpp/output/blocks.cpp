@@ -72,8 +72,8 @@ Blocks::Blocks(MPI_Comm comm, std::span<const std::int64_t> id) : _comm(comm)
   MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, comm);
   if (bad == 0)
   {
-    _place = exchange<std::int64_t>(comm, MPI_INT64_T, numbers, _send, _receive,
-                                    1);
+    _place =
+        exchange<std::int64_t>(comm, MPI_INT64_T, numbers, _send, _receive, 1);
     for (std::int64_t& p : _place)
     {
       p -= _begin;
@@ -94,8 +94,8 @@ std::vector<double> Blocks::sorted(std::span<const double> owned,
   for (int i : _order)
     for (int k = 0; k < width; ++k)
       out.push_back(owned[static_cast<std::size_t>(i) * width + k]);
-  const auto come = exchange<double>(_comm, MPI_DOUBLE, out, _send, _receive,
-                                     width);
+  const auto come =
+      exchange<double>(_comm, MPI_DOUBLE, out, _send, _receive, width);
   std::vector<double> rows(static_cast<std::size_t>(_count) * width);
   for (std::size_t i = 0; i < _place.size(); ++i)
     std::copy_n(come.begin() + i * width, width,
@@ -111,8 +111,8 @@ std::vector<double> Blocks::owned(std::span<const double> sorted,
   for (std::int64_t p : _place)
     for (int k = 0; k < width; ++k)
       out.push_back(sorted[static_cast<std::size_t>(p) * width + k]);
-  const auto come = exchange<double>(_comm, MPI_DOUBLE, out, _receive, _send,
-                                     width);
+  const auto come =
+      exchange<double>(_comm, MPI_DOUBLE, out, _receive, _send, width);
   std::vector<double> rows(_order.size() * width);
   for (std::size_t i = 0; i < _order.size(); ++i)
     std::copy_n(come.begin() + i * width, width,

@@ -22,7 +22,7 @@ public:
   /// @throws std::runtime_error on all ranks if they are not
   Blocks(MPI_Comm comm, std::span<const std::int64_t> id);
 
-  std::int64_t rows() const { return _rows; }  ///< of all ranks
+  std::int64_t rows() const { return _rows; }   ///< of all ranks
   std::int64_t begin() const { return _begin; } ///< first of this rank's run
   std::int64_t count() const { return _count; } ///< in this rank's run
 
@@ -37,8 +37,8 @@ public:
 private:
   MPI_Comm _comm;
   std::int64_t _rows = 0, _begin = 0, _count = 0;
-  std::vector<int> _order;  ///< owned entities, by the rank that sorts them
-  std::vector<int> _send, _receive;    ///< entities for and from each rank
-  std::vector<std::int64_t> _place;    ///< in the run, of what is received
+  std::vector<int> _order; ///< owned entities, by the rank that sorts them
+  std::vector<int> _send, _receive; ///< entities for and from each rank
+  std::vector<std::int64_t> _place; ///< in the run, of what is received
 };
 } // namespace mmale::output

@@ -20,9 +20,9 @@ struct CheckpointHeader
   std::string version; ///< of the program that wrote it
   std::string scene;   ///< as understood, JSON text
   scene::Standing standing;
-  double time = 0;       ///< of the run [s]
-  int completed = 0;     ///< there was nothing left to do
-  int checks_hold = 1;   ///< of a completed run
+  double time = 0;     ///< of the run [s]
+  int completed = 0;   ///< there was nothing left to do
+  int checks_hold = 1; ///< of a completed run
 
   void keep(Archive& archive);
 };

@@ -86,8 +86,8 @@ std::string cause()
 /// would find out half way, when the ranks can no longer agree.
 void make_room(const std::filesystem::path& part, std::int64_t bytes)
 {
-  const int fd
-      = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int fd =
+      ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd < 0)
     throw std::runtime_error(std::strerror(errno));
   int error = ::posix_fallocate(fd, 0, static_cast<off_t>(bytes));
@@ -157,9 +157,9 @@ bool write_one(hid_t file, MPI_Comm comm, const Dataset& d)
   const Handle as_is(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(as_is, false); // the same run, the same file
   H5Pset_fill_time(as_is, H5D_FILL_TIME_NEVER);
-  const Handle set(H5Dcreate2(file, d.name.c_str(), type, space, groups, as_is,
-                        H5P_DEFAULT),
-             H5Dclose);
+  const Handle set(
+      H5Dcreate2(file, d.name.c_str(), type, space, groups, as_is, H5P_DEFAULT),
+      H5Dclose);
   if (set < 0)
     return false;
   if (text)
@@ -171,10 +171,10 @@ bool write_one(hid_t file, MPI_Comm comm, const Dataset& d)
            or H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data())
                   >= 0;
   }
-  const void* from = std::visit(
-      [](const auto& c) -> const void* { return c.data(); }, d.content);
-  const std::size_t numbers
-      = std::visit([](const auto& c) { return c.size(); }, d.content);
+  const void* from = std::visit([](const auto& c) -> const void*
+                                { return c.data(); }, d.content);
+  const std::size_t numbers =
+      std::visit([](const auto& c) { return c.size(); }, d.content);
   if (numbers == 0)
     return true;
   const hsize_t start[2] = {static_cast<hsize_t>(d.begin), 0};
@@ -330,8 +330,7 @@ std::array<std::int64_t, 2> DatasetReader::shape(const std::string& name) const
 }
 
 void DatasetReader::read(const std::string& name, std::int64_t type,
-                         std::int64_t begin, std::int64_t count,
-                         void* to) const
+                         std::int64_t begin, std::int64_t count, void* to) const
 {
   const auto [rows, width] = shape(name);
   if (begin + count > rows)
@@ -343,8 +342,8 @@ void DatasetReader::read(const std::string& name, std::int64_t type,
   const Handle space(H5Dget_space(set), H5Sclose);
   const int dims = H5Sget_simple_extent_ndims(space);
   const hsize_t start[2] = {static_cast<hsize_t>(begin), 0};
-  const hsize_t size[2]
-      = {static_cast<hsize_t>(count), static_cast<hsize_t>(width)};
+  const hsize_t size[2] = {static_cast<hsize_t>(count),
+                           static_cast<hsize_t>(width)};
   const Handle memory(H5Screate_simple(std::max(1, dims), size, nullptr),
                       H5Sclose);
   if ((dims > 0

@@ -17,16 +17,16 @@
 namespace mmale::output
 {
 /// Numbers, whole numbers, or text.
-using Content
-    = std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
+using Content =
+    std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
 
 /// A dataset and this rank's part of it. A text is the first rank's.
 struct Dataset
 {
-  std::string name;             ///< with '/' between groups
-  std::int64_t rows = 1;        ///< of all ranks
-  std::int64_t width = 1;       ///< numbers a row
-  std::int64_t begin = 0;       ///< first row of this rank
+  std::string name;                ///< with '/' between groups
+  std::int64_t rows = 1;           ///< of all ranks
+  std::int64_t width = 1;          ///< numbers a row
+  std::int64_t begin = 0;          ///< first row of this rank
   Content content = std::string(); ///< this rank's rows, shape (n, width)
 };
 

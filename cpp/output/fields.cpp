@@ -116,8 +116,9 @@ void remove_others(const std::filesystem::path& folder,
     {
       const auto first = static_cast<std::size_t>(kept[i].begin);
       const std::string s = stem(kept[i].begin), c = counter(i - first);
-      keep = name == s + c + ".pvtu"
-             or (name.starts_with(s + "_p") and name.ends_with("_" + c + ".vtu"));
+      keep =
+          name == s + c + ".pvtu"
+          or (name.starts_with(s + "_p") and name.ends_with("_" + c + ".vtu"));
     }
     if (not keep)
       std::filesystem::remove(entry.path());
@@ -134,8 +135,8 @@ std::string pvd(std::span<const FieldOutput> outputs)
   {
     const auto& [time, begin] = outputs[i];
     std::array<char, 32> text;
-    const auto end
-        = std::to_chars(text.data(), text.data() + text.size(), time).ptr;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), time).ptr;
     out += "    <DataSet timestep=\"" + std::string(text.data(), end)
            + "\" part=\"0\" file=\"" + stem(begin)
            + counter(i - static_cast<std::size_t>(begin)) + ".pvtu\" />\n";
@@ -254,8 +255,8 @@ Fields::~Fields()
   _impl->vtk.reset();
   std::error_code error;
   if (ours)
-    std::filesystem::remove(
-        _impl->folder / (stem(_impl->begin) + ".pvd"), error);
+    std::filesystem::remove(_impl->folder / (stem(_impl->begin) + ".pvd"),
+                            error);
 }
 
 Fields::Fields(Fields&&) noexcept = default;

@@ -75,10 +75,10 @@ private:
   std::ostream& _out;
   std::function<int()> _width;
   std::function<double()> _now;
-  double _started; // wall time [s]
+  double _started;   // wall time [s]
   double _first = 0; // share that was done when this run began
-  double _shown;   // wall time of the last sign of life [s]
-  int _tenth = 0;  // last tenth for which a line was written
+  double _shown;     // wall time of the last sign of life [s]
+  int _tenth = 0;    // last tenth for which a line was written
   bool _on_screen = false;
   bool _finished = false;
   Step _step;

@@ -12,19 +12,18 @@ namespace
 using Json = nlohmann::ordered_json;
 
 /// Keys that may change at any time.
-constexpr std::string_view any_time[]
-    = {"title",
-       "output.checkpoint_every",
-       "output.fields_every",
-       "output.chart.",
-       "output.picture.",
-       "solver.tolerance",
-       "solver.max_iterations",
-       "solver.lag_jacobian",
-       "solver.line_search",
-       "solver.tangent",
-       "solver.geometric_stiffness",
-       "solver.petsc"};
+constexpr std::string_view any_time[] = {"title",
+                                         "output.checkpoint_every",
+                                         "output.fields_every",
+                                         "output.chart.",
+                                         "output.picture.",
+                                         "solver.tolerance",
+                                         "solver.max_iterations",
+                                         "solver.lag_jacobian",
+                                         "solver.line_search",
+                                         "solver.tangent",
+                                         "solver.geometric_stiffness",
+                                         "solver.petsc"};
 
 /// Keys of the present stage that may change.
 constexpr std::string_view of_stage[] = {"name", "step_min", "step_max"};
@@ -48,9 +47,13 @@ public:
           walk(below(key, name), Json(), value);
     }
     else if (a != b
-             and std::ranges::none_of(
-                 any_time, [&](std::string_view k)
-                 { return (key + ".").starts_with(k) and (k.ends_with('.') or key == k); }))
+             and std::ranges::none_of(any_time,
+                                      [&](std::string_view k)
+                                      {
+                                        return (key + ".").starts_with(k)
+                                               and (k.ends_with('.')
+                                                    or key == k);
+                                      }))
       tell(key, a, b);
   }
 
@@ -92,8 +95,8 @@ private:
     // the last step may end a round-off beyond
     if (end < _standing.time * (1 - 1e-12))
       found.push_back(key + ".duration is " + Json(end).dump()
-                      + " s, but the run is at "
-                      + Json(_standing.time).dump() + " s of it");
+                      + " s, but the run is at " + Json(_standing.time).dump()
+                      + " s of it");
     a.erase("duration");
     b.erase("duration");
     for (std::string_view name : of_stage)
