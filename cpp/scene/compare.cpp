@@ -38,7 +38,7 @@ public:
   {
     if (key == "stage")
       stages(a, b);
-    else if (a.is_object() and b.is_object())
+    else if (is_table(a) and is_table(b) and not(a.is_null() and b.is_null()))
     {
       for (const auto& [name, value] : a.items())
         walk(below(key, name), value, b.contains(name) ? b[name] : Json());
@@ -60,6 +60,9 @@ public:
   std::vector<std::string> found;
 
 private:
+  /// What is not there may be a table without keys.
+  static bool is_table(const Json& j) { return j.is_object() or j.is_null(); }
+
   static std::string below(const std::string& key, const std::string& name)
   {
     return key.empty() ? name : key + "." + name;

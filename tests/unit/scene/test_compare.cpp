@@ -79,7 +79,7 @@ TEST_CASE("compare: how hard the solver tries and what is drawn may change")
                     {0, 1})
         == Lines{"solver.element was nothing and is \"mini\""});
   CHECK(differences(before, rest(R"("solver": {"tolerance": 1e-8},
-                         "output": {"curve": {"a": {}}})"),
+                         "output": {"curve": {"a": {"point": [0]}}})"),
                     {0, 1})
             .size()
         == 1);
