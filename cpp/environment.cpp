@@ -2,7 +2,6 @@
 #include "environment.h"
 #include <csignal>
 #include <dolfinx/common/log.h>
-#include <hdf5.h>
 #include <petscsys.h>
 #include <spdlog/spdlog.h>
 #include <stdexcept>
@@ -14,8 +13,6 @@ Environment::Environment(std::string program, std::vector<std::string> options)
 {
   // A file that may not grow is an error of the write, not the end of us.
   std::signal(SIGXFSZ, SIG_IGN);
-  // What HDF5 could not write, it is not to try again at the end.
-  H5dont_atexit();
   _words.insert(_words.begin(), std::move(program));
   for (std::string& word : _words)
     _arguments.push_back(word.data());
