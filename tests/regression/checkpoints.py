@@ -240,7 +240,7 @@ def other_ranks():
     """A run begun on one process goes on upon two, and the other way."""
     path = scene()
     whole, _ = run(path, "whole")
-    for before, after in ((1, 2), (2, 1), (2, 3)):
+    for before, after in ((1, 2), (3, 1)):
         name = f"from_{before}_to_{after}"
         process = start_and_wait(path, name, 20, ranks=before)
         process.send_signal(signal.SIGUSR1)
