@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "monitor.h"
 
+#include "mesh/corners.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -110,9 +111,8 @@ double Monitor::integral(std::span<const double> density) const
   const bool axisymmetric =
       _sim.scene.symmetry == scene::Symmetry::axisymmetric;
   for (int c = 0; c < _sim.domain.num_owned_cells; ++c)
-    out +=
-        (density.empty() ? 1 : density[c])
-        * lagrangian::cell_volume(_sim.domain, _sim.state.x, c, axisymmetric);
+    out += (density.empty() ? 1 : density[c])
+           * mesh::cell_volume(_sim.domain, _sim.state.x, c, axisymmetric);
   return (axisymmetric ? 2 * std::numbers::pi : 1) * sum(_sim.domain.comm, out);
 }
 
@@ -152,20 +152,28 @@ double Monitor::boundary_mean(int boundary, std::span<const double> nodal,
 void Monitor::after_step(double dt)
 {
   const auto& state = _sim.state;
+  std::vector<double> turned;
+  std::span<const double> motion;
+  if (_sim.problem)
+    motion = _sim.problem->motion();
+  else
+  {
+    turned = state.v;
+    for (double& u : turned)
+      u *= dt;
+    motion = turned;
+  }
   for (int b : _watched)
     for (int d = 0; d < 2; ++d)
-      _moved[b][d] += dt * boundary_mean(b, state.v, 2, d);
+      _moved[b][d] += boundary_mean(b, motion, 2, d);
   if (not _points.empty())
   {
-    const auto v = _probe.sample(_spots, {.name = "velocity",
-                                          .location = output::Location::nodal,
-                                          .components = 2,
-                                          .values = state.v});
+    const auto u = sample(motion, 2);
     for (std::size_t i = 0; i < _points.size(); ++i)
       for (int d = 0; d < 2; ++d)
       {
-        _points[i][d] += dt * v[2 * i + d];
-        _displacement[i][d] += dt * v[2 * i + d];
+        _points[i][d] += u[2 * i + d];
+        _displacement[i][d] += u[2 * i + d];
       }
   }
   if (_sim.problem)
@@ -198,14 +206,75 @@ double Monitor::value(const Column& c) const
     return _reactions[c.boundary][d];
   if (q.starts_with("displacement"))
     return c.point >= 0 ? _displacement[c.point][d] : _moved[c.boundary][d];
-  const auto& p = _sim.state.p;
-  if (c.boundary >= 0)
-    return boundary_mean(c.boundary, p, 1, 0);
-  return _probe.sample(std::span(_spots).subspan(c.point, 1),
-                       {.name = q,
-                        .location = output::Location::nodal,
-                        .components = 1,
-                        .values = p})[0];
+  const auto& state = _sim.state;
+  if (q.starts_with("velocity"))
+    return c.boundary >= 0 ? boundary_mean(c.boundary, state.v, 2, d)
+                           : sample(state.v, 2)[2 * c.point + d];
+  if (q.ends_with("_energy") or q.ends_with("_work"))
+    return energy(q);
+  if (q.starts_with("stress"))
+    return stress(c.point, q.substr(7));
+  return c.boundary >= 0 ? boundary_mean(c.boundary, state.p, 1, 0)
+                         : sample(state.p, 1)[c.point];
+}
+
+/// Nodal values at the points of curves, shape (points, size).
+std::vector<double> Monitor::sample(std::span<const double> nodal,
+                                    int size) const
+{
+  return _probe.sample(_spots, {.name = "",
+                                .location = output::Location::nodal,
+                                .components = size,
+                                .values = nodal});
+}
+
+double Monitor::energy(const std::string& quantity) const
+{
+  const double turn = _sim.scene.symmetry == scene::Symmetry::axisymmetric
+                          ? 2 * std::numbers::pi
+                          : 1;
+  const Work& work = _sim.state.work;
+  if (quantity == "internal_work")
+    return turn * work.internal;
+  if (quantity == "external_work")
+    return turn * work.external;
+  const double kinetic = turn * _sim.problem->kinetic_energy(_sim.state);
+  return quantity == "kinetic_energy" ? kinetic
+                                      : kinetic + turn * work.internal;
+}
+
+/// Component xx, yy, zz or xy of the stress in the cell around a point.
+double Monitor::stress(int point, const std::string& component) const
+{
+  const std::vector<std::string> names{"xx", "yy", "zz", "xy"};
+  const auto at = std::ranges::find(names, component) - names.begin();
+  const auto all = cell_stress();
+  return _probe.sample(_spots, {.name = "",
+                                .location = output::Location::cell,
+                                .components = 4,
+                                .values = all})[4 * point + at];
+}
+
+/// Means over the points of the cells; `size` numbers a point.
+std::vector<double> Monitor::cell_mean(std::span<const double> v,
+                                       std::size_t size) const
+{
+  const std::size_t points = _sim.state.points;
+  std::vector<double> out(v.size() / points, 0);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    out[i / (size * points) * size + i % size] += v[i] / points;
+  return out;
+}
+
+/// Stress of the cells, xx yy zz xy, shape (cells, 4) [Pa].
+std::vector<double> Monitor::cell_stress() const
+{
+  auto stress = cell_mean(_sim.state.s, 4);
+  const auto P = cell_mean(_sim.state.P, 1);
+  for (std::size_t c = 0; c < P.size(); ++c)
+    for (int i = 0; i < 3; ++i)
+      stress[4 * c + i] -= P[c];
+  return stress;
 }
 
 std::vector<double> Monitor::row(double step, const StepLog& log)
@@ -291,16 +360,15 @@ std::vector<output::NamedField> Monitor::fields()
     out.push_back({name, Location::cell, 1, values, ""});
   if (not _sim.law)
     return out;
-  const std::size_t cells = state.P.size();
+  const std::size_t cells = state.density.size();
   auto& [mises, stress, history] = _derived;
+  stress = cell_stress();
   mises.resize(cells);
-  stress = state.s;
   for (std::size_t c = 0; c < cells; ++c)
   {
-    mises[c] = std::sqrt(1.5)
-               * material::norm(material::Voigt(state.s.data() + 4 * c));
-    for (int i = 0; i < 3; ++i)
-      stress[4 * c + i] -= state.P[c];
+    material::Voigt s(stress.data() + 4 * c);
+    s.head<3>().array() -= s.head<3>().mean();
+    mises[c] = std::sqrt(1.5) * material::norm(s);
   }
   out.push_back({"pressure", Location::nodal, 1, state.p, "Pa"});
   out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
@@ -311,11 +379,12 @@ std::vector<output::NamedField> Monitor::fields()
       {
         // history numbers come apart, one field each
         const std::size_t h = law.history.size();
+        const auto means = cell_mean(state.history, h);
         history.resize(h * cells);
         for (std::size_t k = 0; k < h; ++k)
         {
           for (std::size_t c = 0; c < cells; ++c)
-            history[k * cells + c] = state.history[h * c + k];
+            history[k * cells + c] = means[h * c + k];
           out.push_back({std::string(law.history[k]), Location::cell, 1,
                          std::span(history).subspan(k * cells, cells), ""});
         }

@@ -46,6 +46,12 @@ private:
   };
   double value(const Column& c) const;
   double tracer(const scene::Curve& c) const;
+  double energy(const std::string& quantity) const;
+  double stress(int point, const std::string& component) const;
+  std::vector<double> sample(std::span<const double> nodal, int size) const;
+  std::vector<double> cell_mean(std::span<const double> v,
+                                std::size_t size) const;
+  std::vector<double> cell_stress() const;
   double boundary_mean(int boundary, std::span<const double> nodal, int size,
                        int component) const;
   double breadth(const scene::Curve& c) const;

@@ -33,7 +33,7 @@ public:
   Result go();
 
 private:
-  void begin_stage();
+  void enter_stage();
   bool stage();
   bool attempt();
   void record(double step, const StepLog& log);
@@ -240,12 +240,16 @@ void Run::record(double step, const StepLog& log)
     _curves.add(row);
 }
 
-/// All that steers the run to come. `begin_stage` has been called.
+/// All that steers the run to come. `enter_stage` has been called.
 void Run::keep(output::Archive& archive)
 {
   archive("run/stage_begin", _begin);
   _control->keep(archive);
   archive("state/time", _sim.state.time);
+  Work& work = _sim.state.work;
+  archive("state/internal_work", work.internal);
+  archive("state/external_work", work.external);
+  archive("state/remap_work", work.remap);
   for_each_field(_sim.state,
                  [&](const std::string& name, Entity entity, auto& values)
                  { archive("state/" + name, entity, values); });
@@ -302,11 +306,14 @@ void Run::resume()
 {
   (*_loaded)("run/stage", _stage);
   (*_loaded)("run/stage_begin", _begin);
-  begin_stage();
+  enter_stage();
   keep(*_loaded);
   _loaded.reset();
   ++_summary.resumed;
-  _progress.note("resumed at t " + std::to_string(_sim.state.time));
+  _progress.resume({.time = _sim.state.time, .number = _summary.steps});
+  std::ostringstream words;
+  words << "resumed at t " << _sim.state.time << " s";
+  _progress.note(words.str());
 }
 
 std::string Run::explain(const StepLog& log) const
@@ -321,8 +328,8 @@ std::string Run::explain(const StepLog& log) const
   return out.str();
 }
 
-/// The present stage from its start, or from where it is resumed.
-void Run::begin_stage()
+/// The present stage, from its start or from where it is resumed.
+void Run::enter_stage()
 {
   const scene::Stage& stage = _scene.stage.at(_stage);
   _marks = marks(_begin, stage.duration);
@@ -369,6 +376,8 @@ bool Run::attempt()
 /// Steps of the present stage; false when the run has to end.
 bool Run::stage()
 {
+  if (_control->time() == 0 and _sim.problem)
+    _sim.problem->begin_stage(_sim.state);
   while (not _control->finished())
   {
     const auto steps = _summary.steps;
@@ -433,9 +442,9 @@ Result Run::go()
     resume();
   else
   {
-    begin_stage();
     record(0, {});
     write_fields();
+    enter_stage();
   }
   _checkpoint_due = _sim.clock.wall() + _scene.output.checkpoint_every;
   bool completed = stage();
@@ -443,7 +452,7 @@ Result Run::go()
   {
     ++_stage;
     _begin = _sim.state.time;
-    begin_stage();
+    enter_stage();
     completed = stage();
   }
   if (completed)

@@ -88,10 +88,14 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene)
     problem = std::make_unique<lagrangian::Problem>(
         domain, *law, scene.symmetry, scene.solver, clock);
     state.p.assign(nodes, 0);
-    state.s.assign(4 * cells, 0);
-    state.P.assign(cells, 0);
+    const std::size_t points = problem->element().num_points();
+    state.points = static_cast<int>(points);
+    state.s.assign(4 * cells * points, 0);
+    state.P.assign(cells * points, 0);
+    for (std::size_t i = 0; i < 2 * nodes; ++i)
+      state.v[i] = scene.initial.velocity[i % 2];
     state.density.assign(cells, problem->element().density());
-    state.history.assign(cells * problem->element().num_history(), 0);
+    state.history.assign(cells * points * problem->element().num_history(), 0);
   }
   if (scene.remap.mode != scene::RemapMode::lagrangian)
     remap = std::make_unique<bridge::RemapStep>(domain, scene, law, clock);

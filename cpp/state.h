@@ -7,20 +7,39 @@
 
 namespace mmale
 {
-/// All that a run carries from step to step (stress layout `mean`: one state a
-/// cell). Nodal arrays and cell arrays hold owned entries, then ghosts.
+/// Work done since the start [J/m or J/rad].
+struct Work
+{
+  double internal = 0; ///< against stresses and gravity, by damping too
+  double external = 0; ///< by loads and by what moves the boundary
+  double remap = 0;    ///< kinetic energy that remaps have added
+};
+
+/// All that a run carries from step to step. Nodal arrays and cell arrays hold
+/// owned entries, then ghosts. What a scene does not use is empty.
 struct State
 {
   double time = 0;
+  int points = 1;        ///< stress states a cell
   std::vector<double> x; ///< nodes, shape (n, 2) [m]
   std::vector<double> p; ///< nodal total pressure, shape (n) [Pa]
-  std::vector<double> v; ///< displacement increment / step, (n, 2) [m/s]
+  std::vector<double> v; ///< velocity; in statics displacement increment /
+                         ///< step, shape (n, 2) [m/s]
 
-  std::vector<double> s;       ///< deviator xx yy zz xy, shape (m, 4) [Pa]
-  std::vector<double> P;       ///< pressure of the cell, shape (m) [Pa]
-  std::vector<double> density; ///< shape (m) [kg/m3]
-  std::vector<double> history; ///< the law's numbers, shape (m, h)
+  std::vector<double> s; ///< deviator xx yy zz xy, shape (m, points, 4) [Pa]
+  std::vector<double> P; ///< pressure of the points, shape (m, points) [Pa]
+  std::vector<double> history; ///< the law's numbers, shape (m, points, h)
+  std::vector<double> density; ///< of the cells, shape (m) [kg/m3]
   std::map<std::string, std::vector<double>> tracer; ///< shape (m) each
+
+  // of dynamic stages
+  std::vector<double> a;      ///< acceleration, shape (n, 2) [m/s2]
+  std::vector<double> force;  ///< residual less inertia, shape (n, 2) [N/m]
+  std::vector<double> inner;  ///< its part from the cells, shape (n, 2) [N/m]
+  std::vector<double> p_rate; ///< dp/dt, with damping, shape (n) [Pa/s]
+  std::vector<double> held_back; ///< what an absorbing boundary carries at
+                                 ///< rest, shape (n, 2) [N/m]
+  Work work;
 };
 
 /// What an array has a row for.
@@ -46,6 +65,11 @@ void for_each_field(S& state, Visit&& visit)
   visit("P", Entity::cell, state.P);
   visit("density", Entity::cell, state.density);
   visit("history", Entity::cell, state.history);
+  visit("a", Entity::node, state.a);
+  visit("force", Entity::node, state.force);
+  visit("inner", Entity::node, state.inner);
+  visit("p_rate", Entity::node, state.p_rate);
+  visit("held_back", Entity::node, state.held_back);
   for (auto& [name, values] : state.tracer)
     visit("tracer_" + name, Entity::cell, values);
 }

@@ -43,7 +43,16 @@ bool step(Simulation& sim, const scene::Stage& stage, double t0, double t1,
   // 2 the mesh moves alone, 3 the state travels through it, 4 and is made
   // admissible again
   if (sim.remap and sim.remap->due(sim.state, number))
+  {
+    const bool dynamic = not sim.state.a.empty();
+    const double before = dynamic ? sim.problem->kinetic_energy(sim.state) : 0;
     sim.remap->run(sim.state, log.remap);
+    if (dynamic and log.remap.done)
+    {
+      sim.state.work.remap += sim.problem->kinetic_energy(sim.state) - before;
+      sim.problem->rebalance(sim.state, t1);
+    }
+  }
   return true;
 }
 } // namespace mmale

@@ -11,7 +11,10 @@ mean pressure and the volume ratio are one number each, in the plane and about a
 axis; the bubble's terms are integrated exactly.
 """
 
+from itertools import permutations
+
 import basix.ufl
+import numpy as np
 from ufl import Measure, FunctionSpace, Mesh, SpatialCoordinate, as_vector, grad
 
 cell = "triangle"
@@ -22,6 +25,8 @@ mini = basix.ufl.mixed_element([node, bubble])
 mesh = Mesh(basix.ufl.element("Lagrange", cell, 1, shape=(2,)))
 W = FunctionSpace(mesh, mini)
 B = FunctionSpace(mesh, bubble)
+Q = FunctionSpace(mesh, basix.ufl.element("Lagrange", cell, 1))
+V = FunctionSpace(mesh, basix.ufl.element("Lagrange", cell, 1, shape=(2,)))
 x = SpatialCoordinate(mesh)
 
 # Two kernels a form, told apart by a number, since FFCx 0.9 mixes up the values of
@@ -64,3 +69,32 @@ def deviator(h):
     """A tensor in vector form less its mean normal part."""
     m = divergence(h) / 3
     return as_vector((h[0] - m, h[1], h[2], h[3] - m, h[4] - m))
+
+
+# Points of layout `quadrature`: a cell falls into triangles that move with it,
+# three at its centroid or six between its medians, and each has its point where
+# its mass is. So a point's weight is its triangle's volume, about an axis too,
+# and the remap carries these triangles like cells.
+_orbits = {3: (4 / 9, 4 / 9, 1 / 9), 6: (11 / 18, 5 / 18, 2 / 18)}
+points = {
+    n: np.array([c[1:] for c in sorted(set(permutations(orbit)), reverse=True)])
+    for n, orbit in _orbits.items()
+}
+
+
+def dx_points(n):
+    """Measure over the n points of a cell."""
+    rule = {
+        "quadrature_rule": "custom",
+        "quadrature_points": points[n],
+        "quadrature_weights": np.full(n, 0.5 / n),
+    }
+    return Measure("dx", domain=mesh, metadata=rule)
+
+
+def per_point(n, *shape):
+    """Space of one number, vector or matrix a point."""
+    element = basix.ufl.quadrature_element(
+        cell, shape, points=points[n], weights=np.full(n, 0.5 / n)
+    )
+    return FunctionSpace(mesh, element)

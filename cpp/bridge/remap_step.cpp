@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "mesh/corners.h"
 #include "output/archive.h"
 #include "placement.h"
+#include "point_mesh.h"
 #include "remap/quality/quality.h"
 #include "remap/remap.h"
 #include "remap/smoothing/smooth.h"
@@ -87,7 +89,15 @@ bool among(const std::vector<std::string>& list, const std::string& name)
         : among(scene.remap.surface, name) ? ::remap::Boundary::free_surface
                                            : ::remap::Boundary::closed);
   o.cell_components = widest;
-  o.nodal_components = scene.motion ? 0 : 1;
+  o.nodal_components = scene.motion ? 0 : 2;
+  return o;
+}
+
+::remap::Options point_options(const mesh::Domain& domain,
+                               const scene::Scene& scene, int history)
+{
+  auto o = transport_options(domain, scene, std::max(4, history));
+  o.nodal_components = 0;
   return o;
 }
 
@@ -136,7 +146,13 @@ struct RemapStep::Impl
 
   bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
+  void add_stress(State& state, std::vector<::remap::Field>& fields) const;
   void make_admissible(State& state, RemapLog& log);
+
+  bool axisymmetric() const
+  {
+    return scene.symmetry == scene::Symmetry::axisymmetric;
+  }
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -146,6 +162,20 @@ struct RemapStep::Impl
   ::remap::Mesh mesh;
   int history;
   ::remap::Remapper remapper;
+  struct Points
+  {
+    Points(const mesh::Domain& domain, const scene::Scene& scene, int history,
+           const ::remap::Host& cells)
+        : mesh(domain, scene.solver.points), host(mesh.host(cells)),
+          remapper(mesh.mesh(), point_options(domain, scene, history))
+    {
+    }
+    PointMesh mesh;
+    ::remap::Host host;
+    ::remap::Remapper remapper;
+    ::remap::Ledger ledger; // for nobody: the cells' own is the run's
+  };
+  std::unique_ptr<Points> points;              // with layout `quadrature`
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
   ::remap::Ledger ledger;
 
@@ -159,6 +189,31 @@ struct RemapStep::Impl
 
 namespace
 {
+/// Momentum of the nodes, which travels instead of their velocity.
+struct Momentum
+{
+  std::vector<double> density; ///< per dual volume, shape (nodes, 2) [kg/m2/s]
+
+  Momentum() = default;
+  Momentum(const mesh::Domain& domain, const State& state, bool axisymmetric)
+      : density(state.v)
+  {
+    const auto mass = mesh::lump(domain, state.x, state.density, axisymmetric);
+    const auto volume = mesh::lump(domain, state.x, {}, axisymmetric);
+    for (std::size_t i = 0; i < density.size(); ++i)
+      density[i] *= mass[i / 2] / volume[i / 2];
+  }
+
+  /// Velocities from it on the new mesh.
+  void put(const mesh::Domain& domain, State& state, bool axisymmetric) const
+  {
+    const auto mass = mesh::lump(domain, state.x, state.density, axisymmetric);
+    const auto volume = mesh::lump(domain, state.x, {}, axisymmetric);
+    for (std::size_t i = 0; i < density.size(); ++i)
+      state.v[i] = density[i] * volume[i / 2] / mass[i / 2];
+  }
+};
+
 int history_numbers(const std::optional<material::AnyLaw>& law)
 {
   return law ? std::visit([](const auto& l)
@@ -176,6 +231,8 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
       remapper(mesh,
                transport_options(domain, scene, std::max(law ? 4 : 1, history)))
 {
+  if (law and scene.solver.layout == scene::Layout::quadrature)
+    points = std::make_unique<Points>(domain, scene, history, host);
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
@@ -253,22 +310,37 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   return outcome == ::remap::Outcome::ok;
 }
 
+/// The law's arrays: of the cells, or of their points.
+void RemapStep::Impl::add_stress(State& state,
+                                 std::vector<::remap::Field>& fields) const
+{
+  fields.push_back({.values = state.s, .components = 4, .group = 4});
+  fields.push_back({.values = state.P});
+  if (history > 0)
+    fields.push_back({.values = state.history, .components = history});
+}
+
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,
                                 RemapLog& log)
 {
   const auto scope = clock.scope("3 transport");
   State copy = state; // a remap that stops half way is taken back
-  std::vector<::remap::Field> cells, nodes;
+  std::vector<::remap::Field> cells, nodes, at_points;
   std::vector<std::vector<double>> inflow;
   inflow.reserve(state.tracer.size());
+  Momentum momentum;
   if (law)
   {
-    cells.push_back({.values = state.s, .components = 4, .group = 4});
-    cells.push_back({.values = state.P});
     cells.push_back({.values = state.density});
-    if (history > 0)
-      cells.push_back({.values = state.history, .components = history});
+    add_stress(state, points ? at_points : cells);
     nodes.push_back({.values = state.p});
+  }
+  if (not state.a.empty())
+  {
+    momentum = Momentum(domain, state, axisymmetric());
+    nodes.push_back({.values = momentum.density, .components = 2});
+    if (not state.p_rate.empty())
+      nodes.push_back({.values = state.p_rate});
   }
   for (auto& [name, values] : state.tracer)
   {
@@ -277,8 +349,12 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     cells.push_back({.values = values, .inflow = inflow.back()});
   }
   const ::remap::Ledger before = ledger;
-  const auto outcome = remapper.remap(state.x, x, cells, nodes, host, ledger);
+  auto outcome = remapper.remap(state.x, x, cells, nodes, host, ledger);
   log.cycles = remapper.report().cycles;
+  if (points and outcome == ::remap::Outcome::ok)
+    outcome = points->remapper.remap(points->mesh.nodes(state.x),
+                                     points->mesh.nodes(x), at_points, {},
+                                     points->host, points->ledger);
   if (outcome != ::remap::Outcome::ok)
   {
     log.trouble = ::remap::describe(outcome);
@@ -287,6 +363,8 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     return false;
   }
   std::ranges::copy(x, state.x.begin());
+  if (not state.a.empty())
+    momentum.put(domain, state, axisymmetric());
   return true;
 }
 
@@ -299,13 +377,14 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
   std::visit(
       [&](const auto& l)
       {
-        for (int c = 0; c < domain.num_cells(); ++c)
+        const int owned = state.points * domain.num_owned_cells;
+        for (int q = 0; q < state.points * domain.num_cells(); ++q)
         {
           const double part = l.admit(
-              Eigen::Map<material::Voigt>(state.s.data() + 4 * c),
+              Eigen::Map<material::Voigt>(state.s.data() + 4 * q),
               std::span(state.history)
-                  .subspan(static_cast<std::size_t>(history) * c, history));
-          if (c < domain.num_owned_cells)
+                  .subspan(static_cast<std::size_t>(history) * q, history));
+          if (q < owned)
             clipped += part > 0;
           largest = std::max(largest, part);
         }
@@ -360,8 +439,8 @@ Exchange RemapStep::exchange() const
   std::size_t k = 0;
   if (_impl->law)
   {
-    out.mass = at(5);
-    k = 6 + _impl->history;
+    out.mass = at(0);
+    k = _impl->points ? 1 : 6 + _impl->history;
   }
   for (const auto& [name, tracer] : _impl->scene.tracer)
     out.tracer[name] = at(k++);

@@ -51,8 +51,13 @@ Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
         if (not prescribed and (c.fixed or (c.roller and (d == 0) == upright)))
           hold(nodes, d, b, in_place);
       }
-      if (prescribed and (c.traction_x or c.traction_y or c.pressure))
-        _loaded.push_back({b, c.traction_x, c.traction_y, c.pressure});
+      if (prescribed
+          and (c.traction_x or c.traction_y or c.pressure or c.absorbing))
+        _loaded.push_back(
+            {b, c.traction_x, c.traction_y, c.pressure, c.absorbing});
+      if (prescribed and c.absorbing)
+        _absorbing_nodes.insert(_absorbing_nodes.end(), nodes.begin(),
+                                nodes.end());
       if (prescribed and c.wall)
         _walls.push_back(
             {b, c.wall->x, side_of_body(domain, b, c.wall->x),
@@ -89,8 +94,8 @@ void Conditions::increments(double t0, double t1, std::span<double> g) const
 std::vector<Load> Conditions::loads(double t) const
 {
   std::vector<Load> out;
-  for (const auto& [boundary, x, y, pressure] : _loaded)
-    out.push_back({boundary, {at(x, t), at(y, t)}, at(pressure, t)});
+  for (const auto& [boundary, x, y, pressure, absorbing] : _loaded)
+    out.push_back({boundary, {at(x, t), at(y, t)}, at(pressure, t), absorbing});
   return out;
 }
 

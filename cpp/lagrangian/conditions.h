@@ -16,6 +16,7 @@ struct Load
   int boundary;
   double traction[2]; ///< on the body [Pa]
   double pressure;    ///< inward [Pa]
+  bool absorbing;     ///< with dashpots
 };
 
 /// A rigid upright wall that the nodes of a boundary may touch.
@@ -43,6 +44,9 @@ public:
   /// @param[out] g     shape (nodes, 3)
   void increments(double t0, double t1, std::span<double> g) const;
 
+  /// Nodes of absorbing boundaries, ghosts too; empty without one.
+  std::span<const int> absorbing_nodes() const { return _absorbing_nodes; }
+
   /// Loads at time t, boundaries without load left out.
   std::vector<Load> loads(double t) const;
 
@@ -66,6 +70,7 @@ private:
   {
     int boundary;
     std::optional<scene::TimeSeries> x, y, pressure;
+    bool absorbing;
   };
   void hold(std::span<const int> nodes, int direction, int boundary,
             int series);
@@ -74,6 +79,7 @@ private:
   std::vector<Held> _held;
   std::vector<Series> _series;
   std::vector<Loaded> _loaded;
+  std::vector<int> _absorbing_nodes;
   std::vector<Wall> _walls;
   std::optional<std::array<scene::TimeSeries, 2>> _gravity;
 };

@@ -5,91 +5,137 @@
 #include "kinematics.h"
 #include "material/library.h"
 #include "mesh/domain.h"
+#include "newmark.h"
 #include "scene/scene.h"
 #include "state.h"
-#include <cstdint>
+#include <memory>
 
-/// The condensed MINI element with one stress state a cell (METHOD.md, 2).
+/// The condensed MINI element (METHOD.md, 1 Lagrangian step).
 namespace mmale::lagrangian
 {
 using material::Outcome;
 
-/// Evaluates cells: strain, law, kernels, condensation of the bubble.
-///
-/// The bubble is linear in the residual, so it is eliminated exactly and has
-/// no state: for a residual the two bubble columns are enough.
+/// Evaluates cells: strain, law, kernels, condensation of the bubble. What a
+/// stress layout is; one class a layout.
 class Element
 {
 public:
-  /// @throws std::runtime_error when a form asks for what is not offered
-  Element(const mesh::Domain& domain, const material::AnyLaw& law,
-          scene::Symmetry symmetry, const scene::Solver& options);
+  virtual ~Element() = default;
+
+  /// Inertia in the steps to come, or none; kept by reference.
+  void set_newmark(const Newmark* newmark) { _newmark = newmark; }
+
+  /// A step begins: nothing is left of the last one.
+  virtual void begin_step() {}
+
+  /// A Newton iteration begins at the unknowns last evaluated.
+  virtual void begin_iteration(std::span<const double>) {}
 
   /// Answers of the law for all owned cells at a trial state.
   ///
   /// @param[in] state at the start of the step
   /// @param[in] z     trial unknowns (ux, uy, p), shape (nodes, 3), ghosts too
   /// @return local index of a cell where it failed, or -1; `why` tells
-  int evaluate(const State& state, std::span<const double> z, std::string& why);
+  virtual int evaluate(const State& state, std::span<const double> z,
+                       std::string& why) = 0;
 
   /// Residual of a cell after `evaluate`, nodal order [ux uy p] x 3.
-  void residual(const State& state, int cell, std::span<const double> z,
-                const Constants& c, double* R) const;
+  virtual void residual(const State& state, int cell, std::span<const double> z,
+                        const Constants& c, double* R) = 0;
 
   /// Tangent of a cell after `evaluate`, row-major (9, 9).
-  void jacobian(const State& state, int cell, std::span<const double> z,
-                const Constants& c, double* J) const;
+  virtual void jacobian(const State& state, int cell, std::span<const double> z,
+                        const Constants& c, double* J) = 0;
+
+  /// Nodal forces of the stresses, gravity and damping after `evaluate`, the
+  /// bubble's share left out; (x, y) of three vertices.
+  virtual std::array<double, 6> forces(const State& state, int cell,
+                                       std::span<const double> z,
+                                       const Constants& c) const = 0;
 
   /// Uncondensed tangent and residual, MINI order; for tests.
-  void full(const State& state, int cell, std::span<const double> z,
-            const Constants& c, std::span<double> R11,
-            std::span<double> J121) const;
+  virtual void full(const State& state, int cell, std::span<const double> z,
+                    const Constants& c, std::span<double> R11,
+                    std::span<double> J121) const = 0;
 
   /// State at the end of the step, ghosts filled. Collective.
-  void accept(State& state, std::span<const double> z, double dt) const;
+  void accept(State& state, std::span<const double> z, double dt);
 
   /// Volume of the cell in the trial state, per unit thickness or radian.
   double volume(int cell) const { return _volume[cell]; }
-  double ln_J(int cell) const { return _cell[cell].motion.ln_J; }
-  double theta(int cell) const { return _cell[cell].answer.theta; }
-  /// Square of a nodal force from the stress at the start of the step, the
-  /// measure for the forces left over [N²/m² or N²/rad²].
-  double force_squared(const State& state, int cell) const;
-  /// Square of the step's strain, a measure for the volume equation [-].
-  double strain_squared(int cell) const;
 
-  int num_history() const { return _num_history; }
+  /// Logarithmic volume strain of the cell's nodes [-].
+  virtual double ln_J(int cell) const = 0;
+
+  /// Squares of (P - p) and of (theta - ln J), means over the cell's points.
+  virtual std::array<double, 2> mismatch_squared(const State& state,
+                                                 int cell) const = 0;
+
+  /// Square of the step's strain, a measure for the volume equation [-].
+  virtual double strain_squared(int cell) const = 0;
+
+  /// Square of the force left on the bubble [N2/m2 or N2/rad2].
+  virtual double bubble_squared(int) const { return 0; }
+
+  /// Square of a nodal force from the stress at the start of the step, the
+  /// measure for the forces left over [N2/m2 or N2/rad2].
+  double force_squared(const State& state, int cell) const;
+
+  int num_points() const { return _num_points; }
+  int num_history() const { return _num_history; } ///< of a point
   double shear_modulus() const;
+  double bulk_modulus() const;
   double density() const;
 
-private:
-  struct Cell
-  {
-    Gradient G;
-    Motion motion;
-    material::Response answer;
-    Voigt s;  ///< deviator at the end, turned
-    double p; ///< mean pressure at the end
-  };
-  void gather(const State& state, int cell, std::span<const double> z,
-              CellInput& in, double* x) const;
-  void add_tangent(int cell, CellInput& in) const;
-  void use_cell_pressure(int cell, CellInput& in) const;
-  void project_pressure(int cell, const CellInput& in, double* R,
-                        double* J) const;
-  double cell_pressure(int cell) const;
+protected:
+  Element(const mesh::Domain& domain, const material::AnyLaw& law,
+          scene::Symmetry symmetry, const scene::Solver& options, int points);
+
+  /// Write deviators and pressures of the owned cells.
+  virtual void accept_stress(State& state) const = 0;
+
+  /// What dynamics offers to the forms of a cell.
+  void gather_newmark(const State& state, int cell, NewmarkInput& in) const;
+
+  /// Unknowns and end geometry of a cell, the bubble left at zero.
+  void gather_nodes(const State& state, int cell, std::span<const double> z,
+                    double* w, double* x) const;
 
   const mesh::Domain& _domain;
   const material::AnyLaw& _law;
   bool _axisymmetric;
   scene::Solver _options;
-  Kernel _R, _J, _B;
-  std::vector<Cell> _cell;
-  std::vector<double> _volume, _history;
-  int _num_history;
+  int _num_points, _num_history;
+  const Newmark* _newmark = nullptr;
+  std::vector<double> _volume, _history; ///< of the trial state
 };
 
-/// Volume of a triangle per unit thickness, or per radian about x = 0.
-double cell_volume(const mesh::Domain& domain, std::span<const double> x,
-                   int cell, bool axisymmetric);
+/// The element of the scene's layout.
+/// @throws std::runtime_error when a form asks for what is not offered
+std::unique_ptr<Element> make_element(const mesh::Domain& domain,
+                                      const material::AnyLaw& law,
+                                      scene::Symmetry symmetry,
+                                      const scene::Solver& options);
+
+/// Schur complement of the bubble: what is left in the nodal block.
+struct Condensation
+{
+  double inverse[4]; // of K_bb
+
+  Condensation() = default;
+  Condensation(double a, double b, double c, double d)
+  {
+    const double det = 1 / (a * d - b * c);
+    inverse[0] = d * det;
+    inverse[1] = -b * det;
+    inverse[2] = -c * det;
+    inverse[3] = a * det;
+  }
+  /// K_bb^-1 (r0, r1)
+  std::array<double, 2> solve(double r0, double r1) const
+  {
+    return {inverse[0] * r0 + inverse[1] * r1,
+            inverse[2] * r0 + inverse[3] * r1};
+  }
+};
 } // namespace mmale::lagrangian

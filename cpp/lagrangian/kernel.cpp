@@ -3,7 +3,6 @@
 
 #include "strain.h"
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -15,35 +14,65 @@ namespace
 {
 struct Offer
 {
-  std::string_view name;
+  std::string name;
   std::size_t offset;
   int size;
 };
 
-constexpr std::array coefficients{
-    Offer{"w", offsetof(CellInput, w), 11},
-    Offer{"w_n", offsetof(CellInput, w_n), 11},
-    Offer{"s", offsetof(CellInput, s), 5},
-    Offer{"theta", offsetof(CellInput, theta), 1},
-    Offer{"ln_J", offsetof(CellInput, ln_J), 1},
-    Offer{"mu", offsetof(CellInput, mu), 1},
-    Offer{"lam", offsetof(CellInput, lam), 1},
-    Offer{"rho", offsetof(CellInput, rho), 1},
-    Offer{"ds_dh", offsetof(CellInput, ds_dh), 25},
-    Offer{"ds_dp", offsetof(CellInput, ds_dp), 5},
-    Offer{"dtheta_dh", offsetof(CellInput, dtheta_dh), 5},
-    Offer{"dtheta_dp", offsetof(CellInput, dtheta_dp), 1},
-    Offer{"dlam_dh", offsetof(CellInput, dlam_dh), 5},
-    Offer{"dlam_dp", offsetof(CellInput, dlam_dp), 1},
-};
+std::vector<Offer> offers(const CellInput*)
+{
+  return {{"w", offsetof(CellInput, w), 11},
+          {"w_n", offsetof(CellInput, w_n), 11},
+          {"s", offsetof(CellInput, s), 5},
+          {"theta", offsetof(CellInput, theta), 1},
+          {"ln_J", offsetof(CellInput, ln_J), 1},
+          {"mu", offsetof(CellInput, mu), 1},
+          {"lam", offsetof(CellInput, lam), 1},
+          {"rho", offsetof(CellInput, rho), 1},
+          {"ds_dh", offsetof(CellInput, ds_dh), 25},
+          {"ds_dp", offsetof(CellInput, ds_dp), 5},
+          {"dtheta_dh", offsetof(CellInput, dtheta_dh), 5},
+          {"dtheta_dp", offsetof(CellInput, dtheta_dp), 1},
+          {"dlam_dh", offsetof(CellInput, dlam_dh), 5},
+          {"dlam_dp", offsetof(CellInput, dlam_dp), 1}};
+}
 
-constexpr std::array constants{
-    Offer{"g", offsetof(Constants, g), 2},
-    Offer{"g_n", offsetof(Constants, g_n), 2},
-    Offer{"dt", offsetof(Constants, dt), 1},
-    Offer{"t", offsetof(Constants, t), 2},
-    Offer{"p_a", offsetof(Constants, p_a), 1},
-};
+template <int n>
+std::vector<Offer> offers(const PointInput<n>*)
+{
+  using Input = PointInput<n>;
+  const std::string of = "_" + std::to_string(n);
+  return {{"w", offsetof(Input, w), 11},
+          {"mu", offsetof(Input, mu), 1},
+          {"rho", offsetof(Input, rho), 1},
+          {"s" + of, offsetof(Input, s), 5 * n},
+          {"excess" + of, offsetof(Input, excess), n},
+          {"ds_dh" + of, offsetof(Input, ds_dh), 25 * n},
+          {"ds_dp" + of, offsetof(Input, ds_dp), 5 * n},
+          {"dtheta_dh" + of, offsetof(Input, dtheta_dh), 5 * n},
+          {"dtheta_dp" + of, offsetof(Input, dtheta_dp), n}};
+}
+
+/// What every input has.
+template <class Input>
+std::vector<Offer> all_offers()
+{
+  auto out = offers(static_cast<const Input*>(nullptr));
+  const std::size_t at = offsetof(Input, newmark);
+  out.push_back({"a_0", at + offsetof(NewmarkInput, a_0), 6});
+  out.push_back({"a_n", at + offsetof(NewmarkInput, a_n), 6});
+  out.push_back({"v_0", at + offsetof(NewmarkInput, v_0), 6});
+  out.push_back({"r_0", at + offsetof(NewmarkInput, r_0), 3});
+  return out;
+}
+
+const std::vector<Offer> constants{
+    {"g", offsetof(Constants, g), 2},     {"g_n", offsetof(Constants, g_n), 2},
+    {"dt", offsetof(Constants, dt), 1},   {"t", offsetof(Constants, t), 2},
+    {"p_a", offsetof(Constants, p_a), 1}, {"z_p", offsetof(Constants, z_p), 1},
+    {"z_s", offsetof(Constants, z_s), 1}, {"c_a", offsetof(Constants, c_a), 1},
+    {"c_v", offsetof(Constants, c_v), 1}, {"c_r", offsetof(Constants, c_r), 1},
+    {"b", offsetof(Constants, b), 1}};
 
 const Offer& find(std::span<const Offer> offers, std::string_view name,
                   std::string_view what)
@@ -54,34 +83,33 @@ const Offer& find(std::span<const Offer> offers, std::string_view name,
   std::string message = "forms: no " + std::string(what) + " is called '"
                         + std::string(name) + "'; there are";
   for (const Offer& o : offers)
-    message += " " + std::string(o.name);
+    message += " " + o.name;
   throw std::runtime_error(message);
 }
 
 template <class Struct>
-double* pack(double* to, const Struct& from, const auto& parts)
+void pack(double* to, const Struct& from, const auto& parts)
 {
   const char* base = reinterpret_cast<const char*>(&from);
   for (const auto& [offset, size] : parts)
     to = std::copy_n(reinterpret_cast<const double*>(base + offset), size, to);
-  return to;
 }
 } // namespace
 
-Kernel::Kernel(const ufcx_form& form, IntegralKind kind)
+template <class Input>
+BasicKernel<Input>::BasicKernel(const ufcx_form& form, IntegralKind kind)
 {
+  const auto coefficients = all_offers<Input>();
   for (int i = 0; i < form.num_coefficients; ++i)
   {
     const Offer& o =
         find(coefficients, form.coefficient_name_map[i], "coefficient");
     _coefficients.push_back({o.offset, o.size});
-    _w_size += o.size;
   }
   for (int i = 0; i < form.num_constants; ++i)
   {
     const Offer& o = find(constants, form.constant_name_map[i], "constant");
     _constants.push_back({o.offset, o.size});
-    _c_size += o.size;
   }
   const auto type = kind == IntegralKind::cell ? cell : exterior_facet;
   for (int i = form.form_integral_offsets[type];
@@ -92,10 +120,12 @@ Kernel::Kernel(const ufcx_form& form, IntegralKind kind)
                              "boundary facets");
 }
 
-void Kernel::operator()(std::span<double> A, const CellInput& input,
-                        const Constants& c, const double* x, int facet) const
+template <class Input>
+void BasicKernel<Input>::operator()(std::span<double> A, const Input& input,
+                                    const Constants& c, const double* x,
+                                    int facet) const
 {
-  std::array<double, sizeof(CellInput) / sizeof(double)> w_packed;
+  std::array<double, sizeof(Input) / sizeof(double)> w_packed;
   std::array<double, sizeof(Constants) / sizeof(double)> c_packed;
   pack(w_packed.data(), input, _coefficients);
   pack(c_packed.data(), c, _constants);
@@ -103,12 +133,50 @@ void Kernel::operator()(std::span<double> A, const CellInput& input,
     f(A.data(), w_packed.data(), c_packed.data(), x, &facet, nullptr);
 }
 
+template class BasicKernel<CellInput>;
+template class BasicKernel<PointInput<3>>;
+template class BasicKernel<PointInput<6>>;
+
+namespace
+{
+template <int n>
+const ufcx_expression& strain(bool axisymmetric)
+{
+  if constexpr (n == 1)
+    return axisymmetric ? *expression_strain_1 : *expression_strain_0;
+  else if constexpr (n == 3)
+    return axisymmetric ? *expression_strain_3 : *expression_strain_2;
+  else
+    return axisymmetric ? *expression_strain_5 : *expression_strain_4;
+}
+} // namespace
+
+template <int n>
 void mid_gradient(bool axisymmetric, const double* w, const double* x,
                   double* G)
 {
-  std::fill_n(G, 5, 0.0);
-  const ufcx_expression* e =
-      axisymmetric ? expression_strain_1 : expression_strain_0;
-  e->tabulate_tensor_float64(G, w, nullptr, x, nullptr, nullptr);
+  std::fill_n(G, 5 * n, 0.0);
+  strain<n>(axisymmetric)
+      .tabulate_tensor_float64(G, w, nullptr, x, nullptr, nullptr);
 }
+
+template <int n>
+const std::array<std::array<double, 3>, n>& points()
+{
+  static const auto shares = []
+  {
+    const double* X = strain<n>(false).points;
+    std::array<std::array<double, 3>, n> out;
+    for (int q = 0; q < n; ++q)
+      out[q] = {1 - X[2 * q] - X[2 * q + 1], X[2 * q], X[2 * q + 1]};
+    return out;
+  }();
+  return shares;
+}
+
+template void mid_gradient<1>(bool, const double*, const double*, double*);
+template void mid_gradient<3>(bool, const double*, const double*, double*);
+template void mid_gradient<6>(bool, const double*, const double*, double*);
+template const std::array<std::array<double, 3>, 3>& points<3>();
+template const std::array<std::array<double, 3>, 6>& points<6>();
 } // namespace mmale::lagrangian

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,12 @@ struct ufcx_expression;
 /// what it does not use is not copied.
 namespace mmale::lagrangian
 {
+/// What dynamics offers to the forms, by the names in forms/inertia.py.
+struct NewmarkInput
+{
+  double a_0[6], a_n[6], v_0[6], r_0[3];
+};
+
 /// What a cell offers to the forms, by the names in forms/balance.py.
 struct CellInput
 {
@@ -27,9 +34,25 @@ struct CellInput
   double dtheta_dp;
   double dlam_dh[5];
   double dlam_dp;
+  NewmarkInput newmark;
 };
 
-/// The constants of forms/balance.py and forms/load.py.
+/// What a cell of n points offers, by the names in forms/points.py.
+template <int n>
+struct PointInput
+{
+  double w[11];
+  double mu, rho;
+  double s[5 * n];
+  double excess[n];
+  double ds_dh[25 * n];
+  double ds_dp[5 * n];
+  double dtheta_dh[5 * n];
+  double dtheta_dp[n];
+  NewmarkInput newmark;
+};
+
+/// The constants of the forms.
 struct Constants
 {
   double g[2] = {0, 0};
@@ -37,6 +60,9 @@ struct Constants
   double dt = 0;
   double t[2] = {0, 0};
   double p_a = 0;
+  double z_p = 0, z_s = 0;
+  double c_a = 0, c_v = 0, c_r = 0;
+  double b = 0;
 };
 
 enum class IntegralKind
@@ -46,12 +72,13 @@ enum class IntegralKind
 };
 
 /// One compiled form with its packing.
-class Kernel
+template <class Input>
+class BasicKernel
 {
 public:
   /// @throws std::runtime_error when the form uses a name that is not offered,
   /// naming it and what there is.
-  Kernel(const ufcx_form& form, IntegralKind kind);
+  BasicKernel(const ufcx_form& form, IntegralKind kind);
 
   /// Add the element tensor to `A`.
   ///
@@ -60,8 +87,8 @@ public:
   /// @param[in]     c     constants
   /// @param[in]     x     vertices, shape (3, 3) [m]
   /// @param[in]     facet local facet, for facet integrals
-  void operator()(std::span<double> A, const CellInput& input,
-                  const Constants& c, const double* x, int facet = 0) const;
+  void operator()(std::span<double> A, const Input& input, const Constants& c,
+                  const double* x, int facet = 0) const;
 
 private:
   struct Part
@@ -73,15 +100,22 @@ private:
                             const double*, const int*, const unsigned char*);
   std::vector<Function> _functions;
   std::vector<Part> _coefficients, _constants;
-  int _w_size = 0, _c_size = 0;
 };
+using Kernel = BasicKernel<CellInput>;
 
-/// The mid-cell gradient of forms/strain.py.
+/// The gradients of forms/strain.py: in the middle of a cell, or at n points.
 ///
+/// @tparam     n 1 for the middle, 3 or 6 for the points
 /// @param[in]  axisymmetric which of the two expressions
 /// @param[in]  w displacement increment in MINI order, shape (11)
 /// @param[in]  x vertices of the mid-step geometry, shape (3, 3) [m]
-/// @param[out] G xx, xy, yx, yy, zz
+/// @param[out] G xx, xy, yx, yy, zz, shape (n, 5)
+template <int n>
 void mid_gradient(bool axisymmetric, const double* w, const double* x,
                   double* G);
+
+/// Shares of the three vertices in a point of layout `quadrature`, as in
+/// forms/mini.py.
+template <int n>
+const std::array<std::array<double, 3>, n>& points();
 } // namespace mmale::lagrangian

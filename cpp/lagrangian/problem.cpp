@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "problem.h"
 
-#include "load.h"
+#include "mesh/corners.h"
 #include "output/archive.h"
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ double mean_edge(const mesh::Domain& domain)
 {
   double sum[2] = {0, static_cast<double>(domain.num_owned_cells)};
   for (int c = 0; c < domain.num_owned_cells; ++c)
-    sum[0] += cell_volume(domain, domain.initial_x, c, false);
+    sum[0] += mesh::cell_volume(domain, domain.initial_x, c, false);
   MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, domain.comm);
   return std::sqrt(sum[0] / sum[1]);
 }
@@ -33,17 +33,14 @@ Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
                  scene::Symmetry symmetry, const scene::Solver& options,
                  output::Clock& clock)
     : _domain(domain), _symmetry(symmetry), _options(options), _clock(clock),
-      _element(domain, law, symmetry, options),
-      _load_R(symmetry == scene::Symmetry::axisymmetric ? *form_load_R_axi
-                                                        : *form_load_R_plane,
-              IntegralKind::facet),
-      _load_J(symmetry == scene::Symmetry::axisymmetric ? *form_load_J_axi
-                                                        : *form_load_J_plane,
-              IntegralKind::facet),
-      _stress(_element.shear_modulus()), _length(mean_edge(domain)),
-      _increment(3 * domain.num_nodes(), 0), _z(node_map(domain), 3),
-      _force(node_map(domain), 3)
+      _element(make_element(domain, law, symmetry, options)),
+      _loads(domain, symmetry), _stress(_element->shear_modulus()),
+      _length(mean_edge(domain)), _increment(3 * domain.num_nodes(), 0),
+      _z(node_map(domain), 3), _force(node_map(domain), 3)
 {
+  const double rho = _element->density(), G = _element->shear_modulus();
+  _loads.set_impedance(std::sqrt(rho * (_element->bulk_modulus() + 4 * G / 3)),
+                       std::sqrt(rho * G));
   create_matrix();
   create_solver();
 }
@@ -62,6 +59,10 @@ void Problem::set_stage(const scene::Stage& stage)
   _contact.emplace(_domain, *_conditions);
   _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
   _guess_dt = 0;
+  _newmark.reset();
+  if (stage.dynamics)
+    _newmark.emplace(_domain, _symmetry, stage.dynamics->resolved());
+  _element->set_newmark(_newmark ? &*_newmark : nullptr);
 }
 
 void Problem::unpack(Vec x)
@@ -106,60 +107,9 @@ void Problem::agree_on_failure(int cell, const std::string& why)
 bool Problem::evaluate()
 {
   std::string why;
-  const int failed = _element.evaluate(*_state, _z.array(), why);
+  const int failed = _element->evaluate(*_state, _z.array(), why);
   agree_on_failure(failed, why);
   return not _failed;
-}
-
-/// Vertices of a cell at the end of the step, shape (3, 3) [m].
-std::array<double, 9> Problem::end_geometry(int cell) const
-{
-  std::array<double, 9> x{};
-  for (int v = 0; v < 3; ++v)
-    for (int d = 0; d < 2; ++d)
-    {
-      const int n = _domain.cells[cell][v];
-      x[3 * v + d] = _state->x[2 * n + d] + _z.array()[3 * n + d];
-    }
-  return x;
-}
-
-void Problem::assemble_loads(std::span<double> force)
-{
-  for (const Load& load : _loads)
-  {
-    Constants c = _constants;
-    std::copy_n(load.traction, 2, c.t);
-    c.p_a = load.pressure;
-    for (const mesh::Facet& f : _domain.facets)
-    {
-      if (f.boundary != load.boundary or f.cell >= _domain.num_owned_cells)
-        continue;
-      double R[11] = {};
-      const auto& nodes = _domain.cells[f.cell];
-      _load_R(R, {}, c, end_geometry(f.cell).data(), f.local);
-      for (int i = 0; i < 9; ++i)
-        force[3 * nodes[i / 3] + i % 3] += R[i];
-    }
-  }
-}
-
-void Problem::load_jacobian(int cell, double* J) const
-{
-  if (_facets_of_cell.empty())
-    return;
-  for (const mesh::Facet& f : _facets_of_cell[cell])
-  {
-    Constants c = _constants;
-    for (const Load& load : _loads)
-      if (load.boundary == f.boundary)
-        c.p_a = load.pressure;
-    double A[121] = {};
-    _load_J(A, {}, c, end_geometry(cell).data(), f.local);
-    for (int i = 0; i < 9; ++i)
-      for (int j = 0; j < 9; ++j)
-        J[9 * i + j] += A[11 * i + j];
-  }
 }
 
 void Problem::assemble_residual(double* r)
@@ -168,10 +118,11 @@ void Problem::assemble_residual(double* r)
   auto force = _force.mutable_array();
   std::ranges::fill(force, 0.0);
   double size[3] = {0, 0, 0}; // squares: cell forces, strains, held increments
+  double bubbles = 0;         // square of the forces on bubbles
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
     double R[9];
-    _element.residual(*_state, c, z, _constants, R);
+    _element->residual(*_state, c, z, _constants, R);
     const auto& nodes = _domain.cells[c];
     for (int i = 0; i < 9; ++i)
     {
@@ -180,12 +131,15 @@ void Problem::assemble_residual(double* r)
         size[0] += R[i] * R[i];
     }
     // and what the cell brought along: a step may end without stress
-    size[0] += _element.force_squared(*_state, c);
-    const double V = _element.volume(c) / 3;
-    size[1] += 3 * V * V * (1e-32 + _element.strain_squared(c));
+    size[0] += _element->force_squared(*_state, c);
+    bubbles += _element->bubble_squared(c);
+    const double V = _element->volume(c) / 3;
+    size[1] += 3 * V * V * (1e-32 + _element->strain_squared(c));
   }
-  assemble_loads(force);
+  _loads.add_residual(*_state, z, force);
   _force.scatter_rev(std::plus<double>());
+  if (_newmark)
+    add_inertia(force, size[0]);
   if (not _contact->empty() and _contact_changes < max_contact_changes
       and _contact->update(_state->x, z, force, _stress))
   {
@@ -193,7 +147,7 @@ void Problem::assemble_residual(double* r)
     hold();
   }
 
-  double norm[3] = {0, 0, 0};
+  double norm[3] = {bubbles, 0, 0};
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
   {
     const bool pressure = i % 3 == 2;
@@ -262,21 +216,15 @@ void Problem::prepare(const State& state, double t0, double t1)
   _state = &state;
   _t0 = t0;
   _t1 = t1;
-  _loads = _conditions->loads(t1);
   const auto g = _conditions->gravity(t1);
+  _constants = {};
   _constants.dt = t1 - t0;
   std::ranges::copy(g, _constants.g);
   std::ranges::copy(t0 > 0 ? _conditions->gravity(t0) : _gravity,
                     _constants.g_n);
-  _facets_of_cell.clear();
-  for (const Load& load : _loads)
-    for (const mesh::Facet& f : _domain.facets)
-      if (load.pressure != 0 and f.boundary == load.boundary
-          and f.cell < _domain.num_owned_cells)
-      {
-        _facets_of_cell.resize(_domain.num_owned_cells);
-        _facets_of_cell[f.cell].push_back(f);
-      }
+  if (_newmark)
+    begin_newmark(state);
+  _loads.begin_step(_conditions->loads(t1), _newmark ? &*_newmark : nullptr);
 }
 
 /// What is held in this step: the stage's conditions, and contact.
@@ -285,6 +233,15 @@ void Problem::hold()
   _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
+  if (not _newmark)
+    return;
+  _newmark->hold(*_state, _holder, _increment);
+  for (int i = 0; _newmark->is_explicit() and i < 3 * _domain.num_nodes(); ++i)
+    if (i % 3 != 2 and _holder[i] < 0)
+    {
+      _holder[i] = by_scheme();
+      _increment[i] = _newmark->foreseen(*_state, 2 * (i / 3) + i % 3);
+    }
 }
 
 /// First iterate of Newton.
@@ -298,8 +255,11 @@ void Problem::start(Start from)
       x[i] = _state->p[i / 3] * _length / _stress;
     else if (from == Start::rest)
       x[i] = 0;
+    else if (_holder[i] >= 0)
+      x[i] = _increment[i];
     else
-      x[i] = _holder[i] >= 0 ? _increment[i] : _guess[i] * dt / _guess_dt;
+      x[i] = _newmark ? _newmark->foreseen(*_state, 2 * (i / 3) + i % 3)
+                      : _motion[2 * (i / 3) + i % 3] * dt / _guess_dt;
   VecRestoreArray(_x, &x);
 }
 
@@ -309,6 +269,7 @@ bool Problem::newton(NewtonLog& log)
   log.failure = {};
   SNESSetApplicationContext(_snes, &log);
   _failed = false;
+  _element->begin_step();
   SNESSolve(_snes, nullptr, _x);
   PetscInt iterations = 0;
   SNESGetIterationNumber(_snes, &iterations);
@@ -344,14 +305,20 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
 {
   const auto scope = _clock.scope("1 lagrangian");
   prepare(state, t0, t1);
-  const bool solved = (_guess_dt > 0 and equilibrium(Start::guess, log))
+  const bool guessed = _guess_dt > 0 or _newmark;
+  const bool solved = (guessed and equilibrium(Start::guess, log))
                       or equilibrium(Start::rest, log);
   _guess_dt = 0;
   if (not solved)
     return false;
-  _element.accept(state, _z.array(), t1 - t0);
-  _guess.assign(_z.array().begin(),
-                _z.array().begin() + 3 * _domain.num_owned_nodes);
+  if (_newmark)
+    book_work(state, inner_forces());
+  _element->accept(state, _z.array(), t1 - t0);
+  if (_newmark)
+    finish_newmark(state);
+  _motion.resize(2 * static_cast<std::size_t>(_domain.num_nodes()));
+  for (std::size_t i = 0; i < _motion.size(); ++i)
+    _motion[i] = _z.array()[3 * (i / 2) + i % 2];
   _guess_dt = t1 - t0;
   std::copy_n(_constants.g, 2, _gravity.begin());
   return true;
@@ -362,10 +329,7 @@ void Problem::keep(output::Archive& archive)
   archive("lagrangian/guess_dt", _guess_dt);
   archive("lagrangian/gravity", _gravity);
   if (_guess_dt > 0)
-  {
-    _guess.resize(3 * static_cast<std::size_t>(_domain.num_nodes()));
-    archive("lagrangian/guess", Entity::node, _guess);
-  }
+    archive("lagrangian/motion", Entity::node, _motion);
 }
 
 std::vector<std::array<double, 2>> Problem::reactions() const
@@ -375,7 +339,7 @@ std::vector<std::array<double, 2>> Problem::reactions() const
   const double turn =
       _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
-    if (_holder[i] >= 0)
+    if (_holder[i] >= 0 and _holder[i] != by_scheme())
       sum[2 * _holder[i] + i % 3] += turn * force[i];
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()),
                 MPI_DOUBLE, MPI_SUM, _domain.comm);
@@ -390,11 +354,9 @@ std::array<double, 2> Problem::mismatch(const State& state) const
   double sum[3] = {0, 0, static_cast<double>(_domain.num_owned_cells)};
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
-    const auto [i, j, k] = _domain.cells[c];
-    const double p = (state.p[i] + state.p[j] + state.p[k]) / 3;
-    sum[0] += (state.P[c] - p) * (state.P[c] - p);
-    const double d = _element.theta(c) - _element.ln_J(c);
-    sum[1] += d * d;
+    const auto [pressure, volume] = _element->mismatch_squared(state, c);
+    sum[0] += pressure;
+    sum[1] += volume;
   }
   MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, _domain.comm);
   return {std::sqrt(sum[0] / sum[2]), std::sqrt(sum[1] / sum[2])};

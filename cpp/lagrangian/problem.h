@@ -3,6 +3,7 @@
 
 #include "contact.h"
 #include "element.h"
+#include "loads.h"
 #include "output/clock.h"
 #include <array>
 #include <dolfinx/la/Vector.h>
@@ -47,8 +48,20 @@ public:
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
 
-  /// Boundary conditions of the stage to come. Collective.
+  /// Boundary conditions and inertia of the stage to come. Collective.
   void set_stage(const scene::Stage& stage);
+
+  /// What the state needs in a stage that begins now: a dynamic one starts with
+  /// the accelerations of balance, at rest after a static one. Collective.
+  void begin_stage(State& state);
+
+  /// Forces and accelerations of a dynamic stage anew, from the state as it is:
+  /// after a remap. Collective.
+  /// @param[in] t from the start of the stage [s]
+  void rebalance(State& state, double t);
+
+  /// Kinetic energy of a dynamic stage, else 0 [J/m or J/rad]. Collective.
+  double kinetic_energy(const State& state) const;
 
   /// Find the end of a step; `state` is advanced only when this succeeds.
   /// Collective.
@@ -63,7 +76,11 @@ public:
   /// RMS over the cells of (P - p) and of (theta - ln J). Collective.
   std::array<double, 2> mismatch(const State& state) const;
 
-  const Element& element() const { return _element; }
+  /// Displacement increments of the last step, shape (nodes, 2), ghosts too
+  /// [m].
+  std::span<const double> motion() const { return _motion; }
+
+  const Element& element() const { return *_element; }
 
   /// What steers the steps to come, besides the state; after `set_stage`.
   void keep(output::Archive& archive);
@@ -71,6 +88,7 @@ public:
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);
   static PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*);
+  static PetscErrorCode before_iteration(SNES, PetscInt);
   static PetscErrorCode before_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode after_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
@@ -81,9 +99,11 @@ private:
   void unpack(Vec x);
   bool evaluate();
   void assemble_residual(double* r);
-  std::array<double, 9> end_geometry(int cell) const;
-  void assemble_loads(std::span<double> r);
-  void load_jacobian(int cell, double* J) const;
+  void add_inertia(std::span<double> force, double& size);
+  std::vector<double> inner_forces();
+  void begin_newmark(const State& state);
+  void book_work(State& state, std::span<const double> inner);
+  void finish_newmark(State& state);
   void agree_on_failure(int cell, const std::string& why);
   void name_worst(NewtonLog& log);
   int cell_at(int node) const;
@@ -94,6 +114,11 @@ private:
     guess, ///< the last step's motion, scaled
     rest   ///< no motion
   };
+  /// Holder of what the explicit scheme has moved already.
+  int by_scheme() const
+  {
+    return static_cast<int>(_domain.boundary_names.size());
+  }
   /// Changes of the contact set in a step. Doubled: patience with flutter.
   static constexpr int max_contact_changes = 10;
   void prepare(const State& state, double t0, double t1);
@@ -106,20 +131,20 @@ private:
   scene::Symmetry _symmetry;
   scene::Solver _options;
   output::Clock& _clock;
-  Element _element;
-  Kernel _load_R, _load_J;
+  std::unique_ptr<Element> _element;
+  Loads _loads;
   double _stress, _length; ///< scales [Pa], [m]
 
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;
-  int _contact_changes = 0;       ///< in this step
-  double _t0 = 0, _t1 = 0;        ///< of this step
-  std::vector<int> _holder;       ///< owned and ghost unknowns
-  std::vector<double> _increment; ///< of held unknowns
-  std::vector<double> _guess;     ///< last step's increment
-  double _guess_dt = 0;
-  std::vector<Load> _loads;
-  std::vector<std::vector<mesh::Facet>> _facets_of_cell; ///< loaded ones
+  std::optional<Newmark> _newmark; ///< in dynamic stages
+  std::vector<double> _total;      ///< force less inertia, owned, shape (n, 2)
+  int _contact_changes = 0;        ///< in this step
+  double _t0 = 0, _t1 = 0;         ///< of this step
+  std::vector<int> _holder;        ///< owned and ghost unknowns
+  std::vector<double> _increment;  ///< of held unknowns
+  std::vector<double> _motion;     ///< last step's increment, (nodes, 2)
+  double _guess_dt = 0;            ///< its step; 0: no guess for the next
   Constants _constants;
   std::array<double, 2> _gravity = {0, 0}; ///< at the end of the last step
 

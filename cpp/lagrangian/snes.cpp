@@ -55,6 +55,7 @@ void Problem::create_solver()
   SNESSetFunction(_snes, _r, function, this);
   SNESSetJacobian(_snes, _J, _J, jacobian, this);
   SNESSetTolerances(_snes, 0, 0, 0, _options.max_iterations, 10000);
+  SNESSetUpdate(_snes, before_iteration);
   SNESSetConvergenceTest(_snes, converged, this, nullptr);
   if (_options.lag_jacobian > 1)
   {
@@ -97,6 +98,16 @@ PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode Problem::before_iteration(SNES snes, PetscInt)
+{
+  PetscFunctionBeginUser;
+  void* context = nullptr;
+  PetscCall(SNESGetFunction(snes, nullptr, nullptr, &context));
+  auto& self = *static_cast<Problem*>(context);
+  self._element->begin_iteration(self._z.array());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
 {
   PetscFunctionBeginUser;
@@ -104,14 +115,15 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   const auto scope = self._clock.scope("1a law and assembly");
   const auto& d = self._domain;
   // displacement rows in units of G, volume rows of l; pressures G / l
-  const double row[2] = {1 / self._stress, 1 / self._length};
+  const double weight = self._newmark ? self._newmark->weight() : 1;
+  const double row[2] = {weight / self._stress, 1 / self._length};
   const double column[2] = {1, self._stress / self._length};
   for (int c = 0; c < d.num_owned_cells; ++c)
   {
     double* A = self._coo.data() + 81 * static_cast<std::size_t>(c);
-    self._element.jacobian(*self._state, c, self._z.array(), self._constants,
-                           A);
-    self.load_jacobian(c, A);
+    self._element->jacobian(*self._state, c, self._z.array(), self._constants,
+                            A);
+    self._loads.add_jacobian(*self._state, c, self._z.array(), A);
     for (int i = 0; i < 9; ++i)
     {
       const bool held = self._holder[3 * d.cells[c][i / 3] + i % 3] >= 0;
@@ -123,6 +135,14 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
       self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
   for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
     diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
+  for (int n = 0; self._newmark and n < d.num_owned_nodes; ++n)
+    for (int i = 3 * n; i < 3 * n + 2; ++i)
+      if (self._holder[i] < 0)
+      {
+        const Newmark& m = *self._newmark;
+        diagonal[i] = m.mass(n) / self._stress
+                      * (m.c_a + weight * m.scheme().damping_mass * m.c_v);
+      }
   PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -229,6 +229,7 @@ std::vector<Complaint> check(Scene scene, const Libraries& libraries)
   check_boundaries(scene, out);
   check_materials(scene, libraries, out);
   check_stages(scene, out);
+  check_solver(scene, out);
   check_remap(scene, libraries, out);
   check_tracers(scene, out);
   check_output(scene, libraries, out);

@@ -57,7 +57,17 @@ void check_body_curve(const Scene& scene, const Curve& c,
                    {}});
   else if (c.point and not c.boundary.empty())
     out.push_back({key + ".point", "give boundary or point, not both", {}});
-  if (c.boundary.empty() and (reaction or not c.point))
+  if (c.quantity.starts_with("stress"))
+  {
+    if (not c.boundary.empty())
+      out.push_back({key + ".boundary",
+                     "a stress belongs to a point, not to a boundary",
+                     {}});
+    else if (not c.point)
+      out.push_back(
+          {key + ".point", missing("Point of " + c.quantity, "m", ""), {}});
+  }
+  else if (c.boundary.empty() and (reaction or not c.point))
     out.push_back({key + ".boundary",
                    missing("Boundary of " + c.quantity, "",
                            "one of " + join(boundary_names(scene)))
@@ -75,6 +85,28 @@ void check_body_curve(const Scene& scene, const Curve& c,
         {key + ".point", words(*c.point) + " lies outside the mesh", {}});
 }
 
+bool is_energy(const std::string& quantity)
+{
+  return quantity.ends_with("_energy") or quantity.ends_with("_work");
+}
+
+/// A curve of the body's energy: it belongs to no place, and needs inertia.
+void check_energy_curve(const Scene& scene, const Curve& c,
+                        const std::string& key, Complaints& out)
+{
+  if (std::ranges::none_of(scene.stage, [](const Stage& stage)
+                           { return stage.dynamics.has_value(); }))
+    out.push_back({key + ".quantity",
+                   c.quantity + " is known in stages with dynamics only",
+                   {}});
+  for (const auto& [name, given] :
+       {std::pair{".tracer", not c.tracer.empty()},
+        std::pair{".boundary", not c.boundary.empty()},
+        std::pair{".point", c.point.has_value()}})
+    if (given)
+      out.push_back({key + name, "is not used by " + c.quantity, {}});
+}
+
 void check_curves(const Scene& scene, Complaints& out)
 {
   for (const auto& [name, c] : scene.output.curve)
@@ -90,6 +122,8 @@ void check_curves(const Scene& scene, Complaints& out)
       continue;
     if (c.quantity.starts_with("tracer"))
       check_tracer_curve(scene, c, key, out);
+    else if (is_energy(c.quantity))
+      check_energy_curve(scene, c, key, out);
     else
       check_body_curve(scene, c, key, out);
   }

@@ -17,6 +17,9 @@ void check_boundaries(const Scene& scene, Complaints& out);
 void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out);
 void check_stages(const Scene& scene, Complaints& out);
+/// Layout and element of the Lagrangian step.
+void check_solver(const Scene& scene, Complaints& out);
+
 void check_remap(const Scene& scene, const Libraries& libraries,
                  Complaints& out);
 void check_tracers(const Scene& scene, Complaints& out);

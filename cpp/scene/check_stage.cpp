@@ -62,6 +62,14 @@ void check_condition(const Scene& scene, const std::string& boundary,
                      {}});
     pressed_in_vain = pressed_in_vain or (blocked[d] and along.moved());
   }
+  for (const Direction& along : directions)
+    if (c.absorbing and (c.fixed or c.roller or along.moved()))
+    {
+      out.push_back({key + ".absorbing",
+                     "has no effect: the boundary is held or moved",
+                     {}});
+      break;
+    }
   if (c.fixed and c.roller)
     out.push_back({key + ".roller", "the boundary is fixed too", {}});
   if (c.pressure and pressed_in_vain)
@@ -86,6 +94,44 @@ void check_steps(const Stage& stage, const std::string& key, Complaints& out)
   ordered("step_min", stage.step_min, "step", stage.step);
   ordered("step", stage.step, "step_max", stage.step_max);
   ordered("step_max", stage.step_max, "duration", stage.duration);
+}
+
+/// Inertia: what belongs together, and what needs it.
+void check_dynamics(const Scene& scene, std::size_t index,
+                    const std::string& key, Complaints& out)
+{
+  const Stage& stage = scene.stage[index];
+  for (const auto& [name, condition] : stage.boundary)
+    if (condition.absorbing and not stage.dynamics)
+      out.push_back({key + ".boundary." + name + ".absorbing",
+                     "needs a table " + key
+                         + ".dynamics: in statics there are "
+                           "no waves",
+                     {}});
+  if (index == 0 and not stage.dynamics
+      and (scene.initial.velocity[0] != 0 or scene.initial.velocity[1] != 0))
+    out.push_back({"initial.velocity",
+                   "has no effect: the first stage has no table dynamics",
+                   {}});
+  if (not stage.dynamics)
+    return;
+  const Dynamics& d = *stage.dynamics;
+  const Dynamics standard;
+  for (const auto& [name, given] :
+       {std::pair{".beta", d.beta != standard.beta},
+        std::pair{".gamma", d.gamma != standard.gamma}})
+    if (d.alpha < 0 and given)
+      out.push_back({key + ".dynamics" + name,
+                     "follows from alpha, which is given too",
+                     {}});
+  for (const auto& [name, material] : scene.material)
+    if (const auto at = material.parameters.find("density");
+        at != material.parameters.end() and at->second == 0)
+      out.push_back({"material." + name + ".density",
+                     std::format("must be > 0 kg/m3, is 0: stage '{}' has "
+                                 "inertia",
+                                 stage.name),
+                     {}});
 }
 
 void check_motion(const Scene& scene, Complaints& out)
@@ -113,6 +159,9 @@ void check_motion(const Scene& scene, Complaints& out)
     if (scene.stage[i].gravity)
       out.push_back(
           {key + ".gravity", "is not used: the motion is prescribed", {}});
+    if (scene.stage[i].dynamics)
+      out.push_back(
+          {key + ".dynamics", "is not used: the motion is prescribed", {}});
   }
 }
 
@@ -212,6 +261,8 @@ void check_stages(const Scene& scene, Complaints& out)
         break;
       }
     check_steps(stage, key, out);
+    if (not scene.motion)
+      check_dynamics(scene, i, key, out);
     for (const auto& [name, condition] : stage.boundary)
     {
       const std::string where = key + ".boundary." + name;
@@ -222,6 +273,18 @@ void check_stages(const Scene& scene, Complaints& out)
         check_condition(scene, name, condition, where, out);
     }
   }
+}
+
+void check_solver(const Scene& scene, Complaints& out)
+{
+  const Solver& solver = scene.solver;
+  if (solver.points != 3 and solver.points != 6)
+    out.push_back({"solver.points",
+                   std::format("must be 3 or 6, is {}", solver.points),
+                   {}});
+  if (solver.layout == Layout::quadrature and solver.element != Element::mini)
+    out.push_back(
+        {"solver.element", "must be mini: layout quadrature has no other", {}});
 }
 
 void check_remap(const Scene& scene, const Libraries& libraries,

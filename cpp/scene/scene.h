@@ -124,6 +124,30 @@ struct Condition
   std::optional<TimeSeries> traction_x, traction_y; ///< force on the body [Pa]
   std::optional<TimeSeries> pressure; ///< follows the surface, inward is + [Pa]
   std::optional<Wall> wall;
+  bool absorbing = false; ///< dashpots let waves out; of a dynamic stage
+};
+
+/// Inertia in a stage: Newmark's scheme, or HHT's with alpha < 0.
+struct Dynamics
+{
+  double beta = 0.25; ///< Newmark's; 0: explicit
+  double gamma = 0.5; ///< Newmark's; > 1/2 damps, < 1/2 lets the motion grow
+  double alpha = 0;   ///< HHT's, -1/3 <= alpha < 0: damps the highest modes;
+                      ///< beta and gamma then follow from it
+  double damping_mass = 0;      ///< Rayleigh's, in proportion to mass [1/s]
+  double damping_stiffness = 0; ///< and to the elastic stiffness [s]
+
+  /// With beta = (1 - alpha)^2 / 4 and gamma = 1/2 - alpha where alpha < 0.
+  Dynamics resolved() const
+  {
+    Dynamics d = *this;
+    if (alpha < 0)
+    {
+      d.beta = 0.25 * (1 - alpha) * (1 - alpha);
+      d.gamma = 0.5 - alpha;
+    }
+    return d;
+  }
 };
 
 /// A stretch of time with its own boundary conditions, loads and steps.
@@ -136,6 +160,7 @@ struct Stage
   double step_max = 0;                       ///< ceiling [s]; 0: step
   std::map<std::string, Condition> boundary; ///< by boundary name
   std::optional<std::array<TimeSeries, 2>> gravity; ///< [m/s^2]
+  std::optional<Dynamics> dynamics; ///< without it the stage is quasi-static
 };
 
 enum class Element
@@ -143,6 +168,13 @@ enum class Element
   mini,           ///< the method's own
   equal_order,    ///< without the bubble: shows the checkerboard
   constant_strain ///< displacement only: locks
+};
+
+/// Where a cell keeps its stress.
+enum class Layout
+{
+  mean,      ///< one state a cell, from its mean strain
+  quadrature ///< one state a point, whose strain includes the bubble
 };
 
 enum class Tangent
@@ -155,6 +187,8 @@ enum class Tangent
 struct Solver
 {
   Element element = Element::mini;
+  Layout layout = Layout::mean;
+  int points = 3; ///< of layout `quadrature`: 3 or 6
   Tangent tangent = Tangent::consistent;
   bool geometric_stiffness = true; ///< off: slower Newton, same answer
   double tolerance = 1e-8; ///< relative to the norm of the cells' own forces
@@ -199,6 +233,12 @@ struct Tracer
                                    ///< "share" of area, or as their "centre"
 };
 
+/// The body at the start of the run; unstressed.
+struct Initial
+{
+  Point velocity = {0, 0}; ///< of all of it [m/s]
+};
+
 /// A prescribed rigid rotation instead of a Lagrangian step.
 struct Motion
 {
@@ -213,8 +253,12 @@ struct Motion
 /// beside it ("effective").
 struct Curve
 {
-  std::string quantity;       ///< displacement_x|y, reaction_x|y, pressure,
-                              ///< tracer_max, tracer_min, tracer_total
+  std::string quantity;       ///< of a boundary or point: displacement_x|y,
+                              ///< velocity_x|y, pressure; of a boundary:
+                              ///< reaction_x|y; of a point: stress_xx|yy|zz|xy;
+                              ///< of a dynamic body: kinetic_energy,
+                              ///< internal_work, external_work, total_energy;
+                              ///< tracer_max|min|total
   std::string boundary;       ///< a named boundary (means over it), or
   std::optional<Point> point; ///< a material point given at the start [m]
   std::string tracer;         ///< for tracer_*
@@ -278,6 +322,7 @@ struct Scene
   std::map<std::string, Material> material;
   std::map<std::string, Tracer> tracer;
   std::optional<Motion> motion;
+  Initial initial;
   std::vector<Stage> stage;
   Solver solver;
   Remap remap;

@@ -29,12 +29,14 @@ template <class T, class... U>
 concept OneOf = (std::same_as<T, U> or ...);
 
 template <class T>
-concept Table = OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition,
-                      Stage, Solver, Remap, Tracer, Motion, Curve, Line,
-                      ReferenceLine, Chart, Picture, Output, Scene>;
+concept Table =
+    OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Dynamics,
+          Stage, Solver, Remap, Tracer, Initial, Motion, Curve, Line,
+          ReferenceLine, Chart, Picture, Output, Scene>;
 
 template <class T>
-concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Tangent, RemapMode>;
+concept Enumeration =
+    OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent, RemapMode>;
 
 /// Names of an enumeration, in the order of its values.
 template <Enumeration E>
@@ -56,6 +58,11 @@ const std::vector<std::string>& names()
     static const Names list = {"mini", "equal_order", "constant_strain"};
     return list;
   }
+  else if constexpr (std::same_as<E, Layout>)
+  {
+    static const Names list = {"mean", "quadrature"};
+    return list;
+  }
   else if constexpr (std::same_as<E, Tangent>)
   {
     static const Names list = {"consistent", "continuum"};
@@ -73,8 +80,11 @@ inline const std::vector<std::string> sides = {"left", "right", "bottom",
 inline const std::vector<std::string> mesh_shapes = {"rectangle",
                                                      "quadrilateral"};
 inline const std::vector<std::string> quantities = {
-    "displacement_x", "displacement_y", "reaction_x", "reaction_y",
-    "pressure",       "tracer_max",     "tracer_min", "tracer_total"};
+    "displacement_x", "displacement_y", "velocity_x",   "velocity_y",
+    "reaction_x",     "reaction_y",     "pressure",     "stress_xx",
+    "stress_yy",      "stress_zz",      "stress_xy",    "kinetic_energy",
+    "internal_work",  "external_work",  "total_energy", "tracer_max",
+    "tracer_min",     "tracer_total"};
 
 template <class V>
 void keys(V& v, Grading& g)
@@ -161,6 +171,13 @@ void keys(V& v, Tracer& t)
 }
 
 template <class V>
+void keys(V& v, Initial& i)
+{
+  v({"velocity", "m/s", "Of the whole body; for a first stage with dynamics."},
+    i.velocity);
+}
+
+template <class V>
 void keys(V& v, Motion& m)
 {
   v({"centre", "m", "Centre of the rotation."}, m.centre);
@@ -200,6 +217,31 @@ void keys(V& v, Condition& c)
     c.pressure);
   v({"wall", "", "Rigid upright wall that it may touch and cannot pass."},
     c.wall);
+  v({"absorbing", "", "Dashpots let waves out; of a stage with dynamics."},
+    c.absorbing);
+}
+
+template <class V>
+void keys(V& v, Dynamics& d)
+{
+  v({"beta", "-", "Newmark's parameter; 0 is explicit.", {0, 1, false, false}},
+    d.beta);
+  v({"gamma",
+     "-",
+     "Newmark's parameter; above 1/2 damps, below lets the motion grow.",
+     {0, 1, true, false}},
+    d.gamma);
+  v({"alpha",
+     "-",
+     "HHT's parameter instead of the two; below 0 it damps the highest modes.",
+     {-1. / 3, 0, false, false}},
+    d.alpha);
+  v({"damping_mass", "1/s", "Rayleigh damping in proportion to mass.",
+     at_least(0)},
+    d.damping_mass);
+  v({"damping_stiffness", "s",
+     "Rayleigh damping in proportion to elastic stiffness.", at_least(0)},
+    d.damping_stiffness);
 }
 
 template <class V>
@@ -214,6 +256,8 @@ void keys(V& v, Stage& s)
   v({"step_max", "s", "Steps do not grow beyond; 0 means step.", at_least(0)},
     s.step_max);
   v({"gravity", "m/s^2", "Acceleration along x and y."}, s.gravity);
+  v({"dynamics", "", "Inertia; without this table the stage is quasi-static."},
+    s.dynamics);
   v({"boundary", "", "What holds on a boundary, by its name."}, s.boundary);
 }
 
@@ -221,6 +265,10 @@ template <class V>
 void keys(V& v, Solver& s)
 {
   v({"element", "", "Element of the Lagrangian step."}, s.element);
+  v({"layout", "", "Stress states: one a cell, or one a point of it."},
+    s.layout);
+  v({"points", "-", "Points of a cell in layout quadrature, 3 or 6."},
+    s.points);
   v({"tangent", "", "Material tangent in Newton's matrix."}, s.tangent);
   v({"geometric_stiffness", "",
      "Geometric stiffness in the matrix; off needs more iterations."},
@@ -364,6 +412,7 @@ void keys(V& v, Scene& s)
   v({"tracer", "", "Passive scalars carried by the remap, by name."}, s.tracer);
   v({"motion", "", "A prescribed rigid rotation instead of mechanics."},
     s.motion);
+  v({"initial", "", "The body at the start."}, s.initial);
   v({"stage", "", "Stages of the run, in order."}, s.stage);
   v({"solver", "", "Knobs of the Lagrangian step."}, s.solver);
   v({"remap", "", "Remap between Lagrangian steps."}, s.remap);

@@ -52,7 +52,7 @@ Gradient increment_of_triangle(const Matrix2d& f)
     }
   }
   Gradient G;
-  mid_gradient(false, w, x, G.data());
+  mid_gradient<1>(false, w, x, G.data());
   return G;
 }
 

@@ -15,12 +15,13 @@ struct Body::Parts
 {
   explicit Parts(scene::Scene s)
       : scene(std::move(s)), sim(MPI_COMM_SELF, scene),
-        element(sim.domain, *sim.law, scene.symmetry, scene.solver)
+        element(lagrangian::make_element(sim.domain, *sim.law, scene.symmetry,
+                                         scene.solver))
   {
   }
   scene::Scene scene;
   Simulation sim;
-  lagrangian::Element element;
+  std::unique_ptr<lagrangian::Element> element;
   lagrangian::Constants constants;
 };
 
@@ -67,6 +68,7 @@ int Body::node(double x, double y) const
 void Body::set_stage(const scene::Stage& stage)
 {
   _parts->sim.problem->set_stage(stage);
+  _parts->sim.problem->begin_stage(state());
 }
 
 Taken Body::step(double t0, double t1)
@@ -95,39 +97,39 @@ std::array<double, 2> Body::mismatch() const
 bool Body::evaluate(std::span<const double> z)
 {
   std::string why;
-  return _parts->element.evaluate(state(), z, why) < 0;
+  return _parts->element->evaluate(state(), z, why) < 0;
 }
 
 std::array<double, 9> Body::residual(int c, std::span<const double> z) const
 {
   std::array<double, 9> R;
-  _parts->element.residual(_parts->sim.state, c, z, _parts->constants,
-                           R.data());
+  _parts->element->residual(_parts->sim.state, c, z, _parts->constants,
+                            R.data());
   return R;
 }
 
 std::array<double, 81> Body::jacobian(int c, std::span<const double> z) const
 {
   std::array<double, 81> J;
-  _parts->element.jacobian(_parts->sim.state, c, z, _parts->constants,
-                           J.data());
+  _parts->element->jacobian(_parts->sim.state, c, z, _parts->constants,
+                            J.data());
   return J;
 }
 
 void Body::full(int c, std::span<const double> z, std::span<double> R,
                 std::span<double> J) const
 {
-  _parts->element.full(_parts->sim.state, c, z, _parts->constants, R, J);
+  _parts->element->full(_parts->sim.state, c, z, _parts->constants, R, J);
 }
 
 void Body::accept(std::span<const double> z)
 {
-  _parts->element.accept(state(), z, 1);
+  _parts->element->accept(state(), z, 1);
 }
 
 double Body::volume(int c) const
 {
-  return _parts->element.volume(c);
+  return _parts->element->volume(c);
 }
 
 scene::Scene rectangle(double width, double height, int nx, int ny,

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "element.h"
+
+namespace mmale::lagrangian
+{
+/// Layout `quadrature`: one stress state at each of n points of a cell, whose
+/// strain includes the bubble (METHOD.md, 1 Lagrangian step).
+///
+/// The bubble is an increment, zero when a step begins. A cell's 11 equations
+/// are linear in it only at first order, so it is an unknown of Newton's: found
+/// anew for each trial from the blocks of the last tangent,
+///
+///     b = b_k - K_bb^-1 (r_b + K_bn (z - z_k)),
+///
+/// with b_k, z_k, r_b those of the last iteration. At convergence r_b = 0.
+/// @source Simo & Rifai, Int. J. Numer. Meth. Engng 29 (1990), for strains
+template <int n>
+class PointElement final : public Element
+{
+public:
+  PointElement(const mesh::Domain& domain, const material::AnyLaw& law,
+               scene::Symmetry symmetry, const scene::Solver& options);
+
+  void begin_step() override;
+  void begin_iteration(std::span<const double> z) override;
+  int evaluate(const State& state, std::span<const double> z,
+               std::string& why) override;
+  void residual(const State& state, int cell, std::span<const double> z,
+                const Constants& c, double* R) override;
+  void jacobian(const State& state, int cell, std::span<const double> z,
+                const Constants& c, double* J) override;
+  std::array<double, 6> forces(const State& state, int cell,
+                               std::span<const double> z,
+                               const Constants& c) const override;
+  void full(const State& state, int cell, std::span<const double> z,
+            const Constants& c, std::span<double> R11,
+            std::span<double> J121) const override;
+  double ln_J(int cell) const override { return _cell[cell].ln_J; }
+  std::array<double, 2> mismatch_squared(const State& state,
+                                         int cell) const override;
+  double strain_squared(int cell) const override;
+  double bubble_squared(int cell) const override;
+
+private:
+  using Numbers9 = std::array<double, 9>;
+  struct Point
+  {
+    Gradient G;
+    Motion motion;
+    material::Response answer;
+    Voigt s;  ///< deviator at the end, turned
+    double p; ///< pressure at the end
+  };
+  struct Cell
+  {
+    std::array<Point, n> point;
+    double ln_J = 0;         ///< of the nodes' motion
+    double bubble[2] = {};   ///< now
+    double bubble_k[2] = {}; ///< at the last iteration
+    double force[2] = {};    ///< r_b now
+    double force_k[2] = {};  ///< and at the last iteration
+    Numbers9 z_k{};          ///< unknowns at the last iteration
+    bool has_blocks = false;
+    Condensation K_bb; ///< of the last tangent, and its other blocks
+    Numbers9 K_bn[2], K_nb[2];
+  };
+  void accept_stress(State& state) const override;
+  Numbers9 nodal(int cell, std::span<const double> z) const;
+  void recover_bubble(Cell& cell, const Numbers9& z) const;
+  const char* strain_cell(const State& state, int c, std::span<const double> z);
+  void gather(const State& state, int cell, std::span<const double> z,
+              PointInput<n>& in, double* x) const;
+  void add_tangent(int cell, PointInput<n>& in) const;
+  void tangent_of(const State& state, int c, std::span<const double> z,
+                  const Constants& constants, double* A) const;
+  void keep_blocks(Cell& cell, const double* A);
+
+  using KernelN = BasicKernel<PointInput<n>>;
+  KernelN _R, _J, _R_inertia, _J_inertia, _R_damping, _J_damping;
+  std::vector<Cell> _cell;
+};
+
+extern template class PointElement<3>;
+extern template class PointElement<6>;
+} // namespace mmale::lagrangian

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Momentum and volume of METHOD.md, section 1, in layout `quadrature`.
+
+    momentum   ∫ (s - p I) : grad (v + v_b) - rho g . (v + v_b)   = 0
+    volume     ∫ q (theta - ln J)                                 = 0
+
+The strain of a point includes the bubble, so the bubble stands in the laws'
+answers; it has an equation of its own, the first with v_b, and is condensed.
+"""
+
+from mini import (
+    W,
+    divergence,
+    dx_points,
+    gradient,
+    mesh,
+    per_cell,
+    per_point,
+    split,
+    x,
+)
+from ufl import (
+    Coefficient,
+    Constant,
+    TestFunctions,
+    TrialFunction,
+    TrialFunctions,
+    derivative,
+    dot,
+    inner,
+)
+import ufl
+
+w = Coefficient(W)  # u [m], p [Pa] and the bubble at the end of the step
+rho = Coefficient(per_cell())  # density [kg/m3]
+g = Constant(mesh, shape=(2,))  # gravity at the end of the step [m/s2]
+
+
+class Laws:
+    """The laws' answers at n points; names as in balance.py."""
+
+    def __init__(self, n):
+        self.s = Coefficient(per_point(n, 5))  # [Pa]
+        self.excess = Coefficient(per_point(n))  # theta - ln J [-]
+        self.ds_dh = Coefficient(per_point(n, 5, 5))  # [Pa]
+        self.ds_dp = Coefficient(per_point(n, 5))  # [-]
+        self.dtheta_dh = Coefficient(per_point(n, 5))  # [-]
+        self.dtheta_dp = Coefficient(per_point(n))  # [1/Pa]
+
+
+def residual(axisymmetric, n, laws):
+    """Virtual work of all forces on the test functions."""
+    r = x[0] if axisymmetric else 1
+    _, p, _ = split(ufl.split(w))
+    v, q, v_b = split(TestFunctions(W))
+    h = gradient(v + v_b, r, axisymmetric)
+    momentum = inner(laws.s, h) - p * divergence(h) - rho * dot(g, v + v_b)
+    return (momentum + q * laws.excess) * r * dx_points(n)
+
+
+def tangent(axisymmetric, n, laws):
+    """Derivative of the residual by u, p and the bubble."""
+    r = x[0] if axisymmetric else 1
+    R = residual(axisymmetric, n, laws)
+    du, dp, du_b = split(TrialFunctions(W))
+    dh = gradient(du + du_b, r, axisymmetric)
+    return (
+        derivative(R, w, TrialFunction(W))
+        + derivative(R, laws.s, laws.ds_dh * dh + laws.ds_dp * dp)
+        + derivative(R, laws.excess, dot(laws.dtheta_dh, dh) + laws.dtheta_dp * dp)
+    )
+
+
+# FFCx finds coefficients and forms by their names here: s_3, R_3_plane, ...
+forms = []
+for n in (3, 6):
+    laws = Laws(n)
+    globals().update({f"{name}_{n}": c for name, c in vars(laws).items()})
+    made = {
+        f"{letter}_{n}_{name}": operator(axisymmetric, n, laws)
+        for name, axisymmetric in (("plane", False), ("axi", True))
+        for letter, operator in (("R", residual), ("J", tangent))
+    }
+    globals().update(made)
+    forms += made.values()
