@@ -236,6 +236,36 @@ def near(a, b):
     same_checkpoint(a, b, 1e-6)
 
 
+def layouts():
+    """Points with stresses of their own, and inertia, go on bit by bit."""
+    path = scene()
+    inertia = """
+[stage.dynamics]
+beta = 0.3025
+gamma = 0.6
+damping_mass = 1.0
+damping_stiffness = 1e-4
+"""
+    first, second = SCENE.split("[[stage]]")[1:]
+    stage, rest = second.split("[remap]")
+    shaking = "[[stage]]".join([SCENE.split("[[stage]]")[0], first, stage + inertia])
+    for name, text, *words in (
+        ("three", SCENE, "solver.layout=quadrature", "solver.points=3"),
+        ("six", SCENE, "solver.layout=quadrature", "solver.points=6"),
+        ("dynamic", shaking + "[remap]" + rest),
+        ("both", shaking + "[remap]" + rest, "solver.layout=quadrature"),
+    ):
+        path.write_text(text)
+        whole, _ = run(path, name, *words)
+        for count in (30, 66):
+            stopped = f"{name}_stopped_{count}"
+            process = start_and_wait(path, stopped, count, *words)
+            process.send_signal(signal.SIGUSR1)
+            hold(process.wait(60) == 3, "stopped")
+            run(path, stopped, *words, "--resume")
+            same(whole, WORK / stopped)
+
+
 def other_ranks():
     """A run begun on one process goes on upon two, and the other way."""
     path = scene()
