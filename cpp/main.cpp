@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "environment.h"
 #include "libraries.h"
+#include "mesh/gmsh.h"
 #include "output/pictures.h"
 #include "run.h"
 #include "scene/describe.h"
@@ -10,11 +11,14 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
 namespace fs = std::filesystem;
 using namespace mmale;
@@ -48,13 +52,34 @@ struct Arguments
   bool resume = false;
 };
 
-/// A run to be made: what differs between members, and its scene.
+/// A run to be made: what differs between members, its scene, and its mesh if
+/// that comes from a file (without cells but on rank 0).
 struct Job
 {
   scene::Member member;
   scene::Scene scene;
   std::string described = {}; ///< the scene as understood
   Resumption begin = {};
+  std::shared_ptr<const mesh::Grid> grid = nullptr;
+};
+
+/// Meshes from files, each read once: members of a sweep may share them.
+class Meshes
+{
+public:
+  const mesh::Loaded& of(const scene::Scene& scene)
+  {
+    const Key key = {scene.mesh.file, scene.mesh.refine, scene.symmetry,
+                     scene.motion.has_value()};
+    auto at = _loaded.find(key);
+    if (at == _loaded.end())
+      at = _loaded.emplace(key, mesh::load_gmsh(scene)).first;
+    return at->second;
+  }
+
+private:
+  using Key = std::tuple<std::string, double, scene::Symmetry, bool>;
+  std::map<Key, mesh::Loaded> _loaded;
 };
 
 /// What a run is checked against, and the scene that it is known of: changed
@@ -91,9 +116,15 @@ void print(const std::vector<scene::Complaint>& complaints)
 }
 
 /// Read the scene of every member of the sweep; all complaints of all.
+/// @param meshes null on ranks that leave meshes to rank 0
 std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
+                           Meshes* meshes,
                            std::vector<scene::Complaint>& complaints)
 {
+  scene::OutlineReader read_mesh;
+  if (meshes)
+    read_mesh = [meshes](const scene::Scene& scene)
+    { return meshes->of(scene).outline; };
   complaints = file.complaints;
   const scene::Sweep sweep = scene::expand(given.overrides);
   std::ranges::copy(sweep.complaints, std::back_inserter(complaints));
@@ -102,11 +133,16 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
   std::vector<Job> jobs;
   for (const scene::Member& member : sweep.members)
   {
-    scene::Reading reading = scene::read(file.text, given.scene.string(),
-                                         member.overrides, libraries());
+    scene::Reading reading =
+        scene::read(file.text, given.scene.string(), member.overrides,
+                    libraries(), read_mesh);
     std::ranges::copy(reading.complaints, std::back_inserter(complaints));
-    jobs.push_back({member, std::move(reading.scene)});
-    jobs.back().described = scene::describe(jobs.back().scene);
+    Job job = {.member = member, .scene = std::move(reading.scene)};
+    job.described = scene::describe(job.scene);
+    if (job.scene.mesh.shape == "gmsh" and complaints.empty())
+      job.grid = meshes ? meshes->of(job.scene).grid
+                        : std::make_shared<const mesh::Grid>();
+    jobs.push_back(std::move(job));
   }
   return jobs;
 }
@@ -192,7 +228,7 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
                         {folder.empty() ? results : results / folder,
                          job.described == reference.scene ? reference.file : "",
                          job.described, given.quiet,
-                         job.begin.way == Resumption::Way::resume},
+                         job.begin.way == Resumption::Way::resume, job.grid},
                         row));
     const bool interrupted = row.interrupted;
     rows.push_back(std::move(row));
@@ -212,38 +248,38 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
   return good;
 }
 
-/// What --resume finds for each run, agreed on by all ranks.
-void look_for_checkpoints(MPI_Comm comm, std::vector<Job>& jobs,
-                          const fs::path& results,
+/// What --resume finds for each run; on rank 0.
+void look_for_checkpoints(std::vector<Job>& jobs, const fs::path& results,
                           std::vector<scene::Complaint>& complaints)
 {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  std::string lines;
   bool any = false;
   for (Job& job : jobs)
   {
     const fs::path folder = job.member.folder;
-    if (rank == 0)
-      job.begin =
-          look_for_checkpoint(folder.empty() ? results : results / folder,
-                              job.scene, job.described);
+    job.begin = look_for_checkpoint(folder.empty() ? results : results / folder,
+                                    job.scene, job.described);
+    any = any or job.begin.way != Resumption::Way::start;
+    for (const auto& line : job.begin.complaints)
+      complaints.push_back({"", line, {}});
+  }
+  // Of a sweep's runs some may not have begun; with none there is a mistake.
+  if (not any)
+    complaints.push_back(
+        {"", results.string() + ": there is no checkpoint to resume from", {}});
+}
+
+/// What rank 0 has found, on all ranks.
+void agree_on_beginnings(MPI_Comm comm, std::vector<Job>& jobs)
+{
+  for (Job& job : jobs)
+  {
     int way[2] = {static_cast<int>(job.begin.way),
                   job.begin.result.checks_hold};
     MPI_Bcast(way, 2, MPI_INT, 0, comm);
     job.begin.way = static_cast<Resumption::Way>(way[0]);
     job.begin.result.completed = true;
     job.begin.result.checks_hold = way[1] != 0;
-    any = any or job.begin.way != Resumption::Way::start;
-    for (const auto& line : job.begin.complaints)
-      lines += line + "\n";
   }
-  // Of a sweep's runs some may not have begun; with none there is a mistake.
-  if (not any)
-    lines = results.string() + ": there is no checkpoint to resume from\n";
-  std::istringstream told(broadcast(comm, lines));
-  for (std::string line; std::getline(told, line);)
-    complaints.push_back({"", line, {}});
 }
 
 /// `mmale run`: rank 0 reads, all ranks agree before anything starts.
@@ -251,41 +287,39 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
 {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  scene::FileText file;
-  if (rank == 0)
-    file = scene::load(given.scene);
-  // The same text gives the same complaints on every rank.
-  file.text = broadcast(comm, file.text);
-  const std::string trouble =
-      broadcast(comm, file.complaints.empty() ? "" : file.complaints[0].what);
-  if (rank > 0 and not trouble.empty())
-    file.complaints.push_back({"", trouble, {given.scene.string(), 0}});
-
-  std::vector<scene::Complaint> complaints;
-  std::vector<Job> jobs = read_jobs(file, given, complaints);
   const fs::path results = results_folder(given);
-  std::string unwritable, reference;
-  if (rank == 0 and complaints.empty())
+  scene::FileText file;
+  std::vector<scene::Complaint> complaints;
+  std::vector<Job> jobs;
+  std::string reference;
+  if (rank == 0)
   {
+    file = scene::load(given.scene);
+    Meshes meshes;
+    jobs = read_jobs(file, given, &meshes, complaints);
     std::error_code error;
-    fs::create_directories(results, error);
+    if (complaints.empty())
+      fs::create_directories(results, error);
     if (error)
-      unwritable = "cannot be made: " + error.message();
+      complaints.push_back(
+          {"", "cannot be made: " + error.message(), {results.string(), 0}});
     const fs::path beside = given.scene.parent_path() / "reference.toml";
     if (fs::exists(beside, error))
       reference = beside.string();
-  }
-  unwritable = broadcast(comm, unwritable);
-  if (not unwritable.empty())
-    complaints.push_back({"", unwritable, {results.string(), 0}});
-  if (given.resume and complaints.empty())
-    look_for_checkpoints(comm, jobs, results, complaints);
-  if (not complaints.empty())
-  {
-    if (rank == 0)
+    if (given.resume and complaints.empty())
+      look_for_checkpoints(jobs, results, complaints);
+    if (not complaints.empty())
       print(complaints);
-    return mistake;
   }
+  int bad = not complaints.empty();
+  MPI_Bcast(&bad, 1, MPI_INT, 0, comm);
+  if (bad)
+    return mistake;
+  // The same text gives the same scenes on every rank.
+  file.text = broadcast(comm, file.text);
+  if (rank > 0)
+    jobs = read_jobs(file, given, nullptr, complaints);
+  agree_on_beginnings(comm, jobs);
   // A scene that only its changes make good has no results to compare with.
   const scene::Reading as_written =
       scene::read(file.text, given.scene.string(), {}, libraries());
@@ -304,9 +338,10 @@ Exit check_verb(const Arguments& given)
     if (given.scene.empty())
       return good;
   }
+  Meshes meshes;
   std::vector<scene::Complaint> complaints;
   const std::vector<Job> jobs =
-      read_jobs(scene::load(given.scene), given, complaints);
+      read_jobs(scene::load(given.scene), given, &meshes, complaints);
   if (not complaints.empty())
   {
     print(complaints);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 namespace mmale
 {
@@ -73,34 +74,42 @@ double Monitor::breadth(const scene::Curve& curve) const
     return 1;
   const auto& d = _sim.domain;
   const int b = d.boundary(curve.boundary);
-  const bool upright =
-      d.boundary_sides[b] == "left" or d.boundary_sides[b] == "right";
-  const auto at = [&](int n) { return d.initial_x[2 * n + upright]; };
-  double ends[2] = {std::numeric_limits<double>::max(),
-                    std::numeric_limits<double>::max()}; // low, minus high
-  for (int n : d.boundary_nodes(b))
-  {
-    ends[0] = std::min(ends[0], at(n));
-    ends[1] = std::min(ends[1], -at(n));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_DOUBLE, MPI_MIN, d.comm);
-  // the first edges of the same side beyond the two ends
-  double beyond[2] = {std::numeric_limits<double>::max(),
-                      std::numeric_limits<double>::max()};
+  const auto line = mesh::common_line(d.sides, b);
+  const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1];
+  double out = std::hypot(dx, dy);
+  if (not(out > 0))
+    throw std::runtime_error("the breadth of '" + curve.boundary
+                             + "' is not known: it is not straight");
+  if (curve.breadth == "nominal")
+    return out;
+  // half of the first edges of other boundaries in line beyond the two ends
+  const double nominal = out;
+  constexpr double none = std::numeric_limits<double>::max();
+  double beyond[2] = {none, none};
   for (const mesh::Facet& f : d.facets)
-    if (f.boundary != b and d.boundary_sides[f.boundary] == d.boundary_sides[b])
+  {
+    if (f.boundary == b)
+      continue;
+    double along[2]; // from the start of the line
+    bool in_line = true;
+    for (int i = 0; i < 2; ++i)
     {
-      const double low = std::min(at(f.a), at(f.b)),
-                   high = std::max(at(f.a), at(f.b)), h = high - low;
-      if (std::abs(high - ends[0]) < 1e-9 * h)
-        beyond[0] = h;
-      if (std::abs(low + ends[1]) < 1e-9 * h)
-        beyond[1] = h;
+      const double* x = &d.initial_x[2 * (i == 0 ? f.a : f.b)];
+      const double p = x[0] - line[0][0], q = x[1] - line[0][1];
+      along[i] = (p * dx + q * dy) / nominal;
+      in_line =
+          in_line and std::abs(p * dy - q * dx) / nominal < 1e-9 * nominal;
     }
+    const auto [low, high] = std::minmax(along[0], along[1]);
+    const double h = high - low;
+    if (in_line and std::abs(high) < 1e-9 * h)
+      beyond[0] = h;
+    if (in_line and std::abs(low - nominal) < 1e-9 * h)
+      beyond[1] = h;
+  }
   MPI_Allreduce(MPI_IN_PLACE, beyond, 2, MPI_DOUBLE, MPI_MIN, d.comm);
-  double out = -ends[1] - ends[0];
   for (double h : beyond)
-    if (curve.breadth == "effective" and h < out)
+    if (h < none)
       out += 0.5 * h;
   return out;
 }

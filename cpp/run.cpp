@@ -176,7 +176,8 @@ std::vector<std::string> names(const output::Ledger& ledger)
 Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
     : _comm(comm), _scene(scene), _options(options),
       _root(dolfinx::MPI::rank(comm) == 0), _end(total_duration(scene)),
-      _sim(comm, scene), _monitor(_sim), _loaded(load(_sim.domain, options)),
+      _sim(comm, scene, options.grid.get()), _monitor(_sim),
+      _loaded(load(_sim.domain, options)),
       _curves(make_curves(_root, options, _monitor.names())),
       _fields(_sim.domain.mesh, options.results, earlier_fields(_loaded)),
       _probe(_sim.domain.mesh),

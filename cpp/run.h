@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "mesh/grid.h"
 #include "scene/scene.h"
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mpi.h>
 #include <string>
 #include <vector>
@@ -18,6 +20,9 @@ struct RunOptions
   std::string scene_as_understood; ///< JSON text, for summary.json
   bool quiet = false;
   bool resume = false; ///< go on from the checkpoint in the folder
+  /// The mesh, if it was read already: null on all ranks or on none, and only
+  /// rank 0's is looked at.
+  std::shared_ptr<const mesh::Grid> grid = nullptr;
 };
 
 /// How a run ended.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "simulation.h"
 
+#include "mesh/gmsh.h"
 #include <algorithm>
 #include <cmath>
 
@@ -67,9 +68,11 @@ double tracer_value(const scene::Tracer& tracer, const mesh::Domain& domain,
 }
 } // namespace
 
-Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene)
-    : scene(scene), domain(mesh::make_domain(comm, mesh::make_grid(scene.mesh),
-                                             scene.boundary))
+Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
+                       const mesh::Grid* grid)
+    : scene(scene),
+      domain(mesh::make_domain(
+          comm, grid ? *grid : mesh::obtain_grid(comm, scene), scene.boundary))
 {
   const std::size_t nodes = domain.num_nodes(), cells = domain.num_cells();
   state.x = domain.initial_x;

@@ -16,7 +16,10 @@ namespace mmale
 struct Simulation
 {
   /// Collective. The scene must outlive this.
-  Simulation(MPI_Comm comm, const scene::Scene& scene);
+  /// @param[in] grid the scene's mesh, if it was read already: on all ranks
+  ///                 null or on none; only rank 0's is looked at
+  Simulation(MPI_Comm comm, const scene::Scene& scene,
+             const mesh::Grid* grid = nullptr);
 
   const scene::Scene& scene;
   output::Clock clock;

@@ -5,11 +5,14 @@
     volume     ∫ q (theta - ln J)                                 = 0
 
 The strain of a point includes the bubble, so the bubble stands in the laws'
-answers; it has an equation of its own, the first with v_b, and is condensed.
+answers; it has an equation of its own, the first with v_b, and is condensed. In
+that equation an elastic spring of a small share of the cell's shear stiffness holds
+the step's bubble: ideally plastic points alone cannot carry any gradient of p.
 """
 
 from mini import (
     W,
+    deviator,
     divergence,
     dx_points,
     gradient,
@@ -17,6 +20,7 @@ from mini import (
     per_cell,
     per_point,
     split,
+    strain,
     x,
 )
 from ufl import (
@@ -33,6 +37,8 @@ import ufl
 
 w = Coefficient(W)  # u [m], p [Pa] and the bubble at the end of the step
 rho = Coefficient(per_cell())  # density [kg/m3]
+mu = Coefficient(per_cell())  # shear modulus at the start of the step [Pa]
+spring = Constant(mesh)  # share of it that always holds the bubble [-]
 g = Constant(mesh, shape=(2,))  # gravity at the end of the step [m/s2]
 
 
@@ -51,11 +57,13 @@ class Laws:
 def residual(axisymmetric, n, laws):
     """Virtual work of all forces on the test functions."""
     r = x[0] if axisymmetric else 1
-    _, p, _ = split(ufl.split(w))
+    _, p, u_b = split(ufl.split(w))
     v, q, v_b = split(TestFunctions(W))
     h = gradient(v + v_b, r, axisymmetric)
+    h_b, e_b = (gradient(z, r, axisymmetric) for z in (v_b, u_b))
     momentum = inner(laws.s, h) - p * divergence(h) - rho * dot(g, v + v_b)
-    return (momentum + q * laws.excess) * r * dx_points(n)
+    held = 2 * spring * mu * inner(deviator(strain(e_b)), strain(h_b))
+    return (momentum + held + q * laws.excess) * r * dx_points(n)
 
 
 def tangent(axisymmetric, n, laws):

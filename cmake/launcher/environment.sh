@@ -12,7 +12,7 @@
 # changes whenever a build made before is of no use any more.
 
 readonly min_dolfinx=0.9
-readonly root_mb=3300 scratch_mb=4200 # a root, and the room to make it in
+readonly root_mb=3500 scratch_mb=4500 # a root, and the room to make it in
 readonly container="or use the container: docker build -t mmale . (see README.md)"
 # The tests put other system files here.
 readonly system=${MMALE_SYSTEM_FILES:-}

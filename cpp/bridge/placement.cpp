@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <utility>
 
 namespace mmale::bridge
 {
@@ -12,7 +13,48 @@ using ::remap::Kind;
 namespace
 {
 /// A side that bends by less, in parts of its length, is straight.
-constexpr double straight = 1e-9;
+constexpr double straight = mesh::Side::straight;
+
+/// A free surface that turns by more at a node when first laid has a corner
+/// there, not a coarse curve [cosine].
+constexpr double corner = 0.7071; // 45 degrees
+
+/// What the boundary's facets say of each node, on all ranks: the side that
+/// all of them are of, `none`, or one of the others.
+enum : int
+{
+  none = -1,    ///< not on the boundary
+  several = -2, ///< where two straight stretches or boundaries meet
+  smooth = -3   ///< the same, but on one boundary that hardly turns there
+};
+
+std::vector<int> sides_of_nodes(const mesh::Domain& domain)
+{
+  const auto& x = domain.initial_x;
+  std::vector<double> side(domain.num_nodes(), none);
+  std::vector<const mesh::Facet*> seen(domain.num_nodes(), nullptr);
+  for (const mesh::Facet& f : domain.facets)
+    for (int n : {f.a, f.b})
+    {
+      const mesh::Facet* other = std::exchange(seen[n], &f);
+      if (not other)
+        side[n] = f.side;
+      else if (f.side != other->side)
+      {
+        const auto u = ::remap::point(x, f.b) - ::remap::point(x, f.a),
+                   v = ::remap::point(x, other->b)
+                       - ::remap::point(x, other->a);
+        const double turn =
+            ::remap::dot(u, v)
+            / std::sqrt(::remap::dot(u, u) * ::remap::dot(v, v));
+        side[n] =
+            f.boundary == other->boundary and turn > corner ? smooth : several;
+      }
+    }
+  // A rank may hold a node without its facets; the owner tells it.
+  domain.node_halo->update(side, 1);
+  return {side.begin(), side.end()};
+}
 } // namespace
 
 Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
@@ -26,14 +68,17 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
     return std::ranges::find(surfaces, domain.boundary_names[b])
            != surfaces.end();
   };
+  const std::vector<int> side_of = sides_of_nodes(domain);
   for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
-    for (int n : domain.boundary_nodes(static_cast<int>(b)))
-      _kinds[n] = _kinds[n] != Kind::free ? Kind::fixed
-                  : surface(b)            ? Kind::surface
-                                          : Kind::slide;
-  for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
-    if (not surface(b))
-      add_side(static_cast<int>(b));
+    if (const auto nodes = domain.boundary_nodes(static_cast<int>(b));
+        surface(b))
+      for (int n : nodes)
+        if (side_of[n] != several)
+          _kinds[n] = Kind::surface;
+  for (int n = 0; n < domain.num_nodes(); ++n)
+    if (side_of[n] != none and _kinds[n] == Kind::free)
+      _kinds[n] = Kind::fixed; // `turn` lets those of straight sides slide
+  add_sides(side_of);
   turn(domain.initial_x);
   for (Kind k : _kinds)
     _on_surface.push_back(k == Kind::surface);
@@ -49,40 +94,38 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
     }
 }
 
-void Placement::add_side(int boundary)
+void Placement::add_sides(std::span<const int> side_of)
 {
-  // The ends are the extreme nodes along the longer extent.
-  const auto nodes = _domain.boundary_nodes(boundary);
-  constexpr double far = std::numeric_limits<double>::max();
-  double box[4] = {far, far, far, far}; // low x, low y, minus high x, high y
-  for (int n : nodes)
-    for (int d = 0; d < 2; ++d)
-    {
-      box[d] = std::min(box[d], _domain.initial_x[2 * n + d]);
-      box[2 + d] = std::min(box[2 + d], -_domain.initial_x[2 * n + d]);
-    }
-  MPI_Allreduce(MPI_IN_PLACE, box, 4, MPI_DOUBLE, MPI_MIN, _domain.comm);
-  if (box[0] == far) // a side that named boundaries have taken whole
-    return;
-  const int d = -box[3] - box[1] > -box[2] - box[0] ? 1 : 0;
-  const double low = box[d], high = -box[2 + d];
-  Side side;
-  for (int n : nodes)
+  std::vector<int> index(_domain.sides.size(), -1);
+  std::map<std::int64_t, int> local;
+  for (int n = 0; n < _domain.num_owned_nodes; ++n)
+    if (side_of[n] < none)
+      local[_domain.node_id[n]] = n;
+  for (std::size_t s = 0; s < _domain.sides.size(); ++s)
   {
-    const double t = (_domain.initial_x[2 * n + d] - low) / (high - low);
-    const bool owned = n < _domain.num_owned_nodes;
-    if (t < 1e-9 or t > 1 - 1e-9)
-    {
-      if (owned)
-        side.ends[t > 0.5] = n;
+    // An edge alone has no nodes between its ends.
+    if (_domain.sides[s].edges < 2)
       continue;
-    }
-    if (_kinds[n] == Kind::fixed) // two boundaries meet here
-      continue;
-    side.nodes.push_back(n);
-    side.part.push_back(t);
+    index[s] = static_cast<int>(_sides.size());
+    _sides.emplace_back();
+    for (int e = 0; e < 2; ++e)
+      if (const auto at = local.find(_domain.sides[s].end_nodes[e]);
+          at != local.end())
+        _sides.back().ends[e] = at->second;
   }
-  _sides.push_back(std::move(side));
+  for (int n = 0; n < _domain.num_nodes(); ++n)
+  {
+    if (_kinds[n] != Kind::fixed or side_of[n] < 0 or index[side_of[n]] < 0)
+      continue;
+    const mesh::Side& whole = _domain.sides[side_of[n]];
+    const ::remap::Point a{whole.ends[0][0], whole.ends[0][1]},
+        chord = ::remap::Point{whole.ends[1][0], whole.ends[1][1]} - a;
+    Side& side = _sides[index[side_of[n]]];
+    side.nodes.push_back(n);
+    side.part.push_back(
+        ::remap::dot(::remap::point(_domain.initial_x, n) - a, chord)
+        / ::remap::dot(chord, chord));
+  }
 }
 
 /// Both ends of all sides, on all ranks.

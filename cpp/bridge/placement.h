@@ -21,8 +21,9 @@ public:
   Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
             const std::vector<std::string>& surfaces);
 
-  /// For patches: nodes slide along their boundary, stay on a free surface,
-  /// and stay with the material where two boundaries meet; shape (nodes).
+  /// For patches: nodes slide along straight sides, stay on a free surface,
+  /// and stay with the material at corners, on curved boundaries and where two
+  /// boundaries meet; shape (nodes).
   std::span<const ::remap::Kind> kinds() const { return _kinds; }
 
   /// For the whole mesh: boundary nodes are where `start` has put them.
@@ -59,7 +60,7 @@ public:
   }
 
 private:
-  /// A boundary that is straight at first.
+  /// A straight stretch of a boundary, with nodes between its ends.
   struct Side
   {
     std::vector<int> nodes;   ///< local, without the two ends
@@ -69,7 +70,7 @@ private:
   /// Sweeps of the averaging a call. Doubled: nothing but time once the
   /// boundary moves evenly.
   static constexpr int sweeps = 20;
-  void add_side(int boundary);
+  void add_sides(std::span<const int> side_of);
   void place_sides(std::vector<double>& x) const;
   void follow_boundary();
   std::vector<std::array<double, 4>> ends(std::span<const double> x) const;

@@ -2,6 +2,7 @@
 #include "conditions.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace mmale::lagrangian
 {
@@ -37,8 +38,10 @@ Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
     {
       const int b = domain.boundary(name);
       const auto nodes = domain.boundary_nodes(b);
-      const auto& side = domain.boundary_sides[b];
-      const bool upright = side == "left" or side == "right";
+      const auto extends = domain.extends(b);
+      if (c.roller and extends[0] and extends[1])
+        throw std::runtime_error("a roller cannot hold boundary '" + name
+                                 + "', which is slanted or curved");
       for (int d = 0; d < 2; ++d)
       {
         const auto& u = d == 0 ? c.displacement_x : c.displacement_y;
@@ -48,7 +51,7 @@ Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
           _series.push_back({u ? *u : *v, not u});
           hold(nodes, d, b, static_cast<int>(_series.size()) - 1);
         }
-        if (not prescribed and (c.fixed or (c.roller and (d == 0) == upright)))
+        if (not prescribed and (c.fixed or (c.roller and extends[1 - d])))
           hold(nodes, d, b, in_place);
       }
       if (prescribed

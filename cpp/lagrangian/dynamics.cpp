@@ -151,6 +151,7 @@ void Problem::rebalance(State& state, double t)
     z[3 * n + 2] = state.p[n];
   }
   _constants = {};
+  _constants.spring = _options.bubble_spring;
   std::ranges::copy(_conditions->gravity(t), _constants.g);
   std::ranges::copy(_constants.g, _constants.g_n);
   _constants.b = _newmark->scheme().damping_stiffness;

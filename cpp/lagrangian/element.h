@@ -37,7 +37,7 @@ public:
   /// @param[in] z     trial unknowns (ux, uy, p), shape (nodes, 3), ghosts too
   /// @return local index of a cell where it failed, or -1; `why` tells
   virtual int evaluate(const State& state, std::span<const double> z,
-                       std::string& why) = 0;
+                       const Constants& c, std::string& why) = 0;
 
   /// Residual of a cell after `evaluate`, nodal order [ux uy p] x 3.
   virtual void residual(const State& state, int cell, std::span<const double> z,
@@ -73,9 +73,6 @@ public:
 
   /// Square of the step's strain, a measure for the volume equation [-].
   virtual double strain_squared(int cell) const = 0;
-
-  /// Square of the force left on the bubble [N2/m2 or N2/rad2].
-  virtual double bubble_squared(int) const { return 0; }
 
   /// Square of a nodal force from the stress at the start of the step, the
   /// measure for the forces left over [N2/m2 or N2/rad2].

@@ -66,13 +66,18 @@ std::vector<Offer> all_offers()
   return out;
 }
 
-const std::vector<Offer> constants{
-    {"g", offsetof(Constants, g), 2},     {"g_n", offsetof(Constants, g_n), 2},
-    {"dt", offsetof(Constants, dt), 1},   {"t", offsetof(Constants, t), 2},
-    {"p_a", offsetof(Constants, p_a), 1}, {"z_p", offsetof(Constants, z_p), 1},
-    {"z_s", offsetof(Constants, z_s), 1}, {"c_a", offsetof(Constants, c_a), 1},
-    {"c_v", offsetof(Constants, c_v), 1}, {"c_r", offsetof(Constants, c_r), 1},
-    {"b", offsetof(Constants, b), 1}};
+const std::vector<Offer> constants{{"g", offsetof(Constants, g), 2},
+                                   {"g_n", offsetof(Constants, g_n), 2},
+                                   {"dt", offsetof(Constants, dt), 1},
+                                   {"t", offsetof(Constants, t), 2},
+                                   {"p_a", offsetof(Constants, p_a), 1},
+                                   {"z_p", offsetof(Constants, z_p), 1},
+                                   {"z_s", offsetof(Constants, z_s), 1},
+                                   {"c_a", offsetof(Constants, c_a), 1},
+                                   {"c_v", offsetof(Constants, c_v), 1},
+                                   {"c_r", offsetof(Constants, c_r), 1},
+                                   {"b", offsetof(Constants, b), 1},
+                                   {"spring", offsetof(Constants, spring), 1}};
 
 const Offer& find(std::span<const Offer> offers, std::string_view name,
                   std::string_view what)

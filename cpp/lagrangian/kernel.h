@@ -63,6 +63,7 @@ struct Constants
   double z_p = 0, z_s = 0;
   double c_a = 0, c_v = 0, c_r = 0;
   double b = 0;
+  double spring = 0;
 };
 
 enum class IntegralKind

@@ -51,7 +51,7 @@ double MeanElement::strain_squared(int c) const
 }
 
 int MeanElement::evaluate(const State& state, std::span<const double> z,
-                          std::string& why)
+                          const Constants&, std::string& why)
 {
   const auto kind = _options.tangent == scene::Tangent::consistent
                         ? material::TangentKind::consistent

@@ -17,7 +17,7 @@ public:
               scene::Symmetry symmetry, const scene::Solver& options);
 
   int evaluate(const State& state, std::span<const double> z,
-               std::string& why) override;
+               const Constants& c, std::string& why) override;
   void residual(const State& state, int cell, std::span<const double> z,
                 const Constants& c, double* R) override;
   void jacobian(const State& state, int cell, std::span<const double> z,

@@ -109,7 +109,7 @@ auto PointElement<n>::nodal(int c, std::span<const double> z) const -> Numbers9
 }
 
 template <int n>
-void PointElement<n>::recover_bubble(Cell& cell, const Numbers9& z) const
+void PointElement<n>::foresee_bubble(Cell& cell, const Numbers9& z) const
 {
   double r[2] = {cell.force_k[0], cell.force_k[1]};
   for (int d = 0; d < 2; ++d)
@@ -158,48 +158,86 @@ const char* PointElement<n>::strain_cell(const State& state, int c,
   return _volume[c] > 0 ? nullptr : "the cell would invert";
 }
 
+/// Strains and answers of a cell for the bubble as it is; what is wrong, or
+/// null.
 template <int n>
-int PointElement<n>::evaluate(const State& state, std::span<const double> z,
-                              std::string& why)
+const char* PointElement<n>::answer(const State& state, int c,
+                                    std::span<const double> z)
 {
   const auto kind = _options.tangent == scene::Tangent::consistent
                         ? material::TangentKind::consistent
                         : material::TangentKind::continuum;
-  std::ranges::copy(std::span(state.history).first(_history.size()),
-                    _history.begin());
-  return std::visit(
-      [&](const auto& law)
-      {
-        for (int c = 0; c < _domain.num_owned_cells; ++c)
-        {
-          if (_cell[c].has_blocks)
-            recover_bubble(_cell[c], nodal(c, z));
-          if (const char* trouble = strain_cell(state, c, z))
-          {
-            why = trouble;
-            return c;
-          }
-          for (int q = 0; q < n; ++q)
-          {
-            Point& point = _cell[c].point[q];
-            const Motion& m = point.motion;
-            const std::size_t at = static_cast<std::size_t>(n) * c + q;
-            const material::Increment step{
-                rotate(Voigt(state.s.data() + 4 * at), m.cosine, m.sine), m.de,
-                state.P[at], point.p};
-            const auto history =
-                std::span(_history).subspan(_num_history * at, _num_history);
-            if (law.update(step, kind, history, point.answer) != Outcome::ok)
-            {
-              why = "the law asks for a smaller step";
-              return c;
-            }
-            point.s = rotate(point.answer.s, m.cosine, m.sine);
-          }
-        }
-        return -1;
-      },
-      _law);
+  if (const char* trouble = strain_cell(state, c, z))
+    return trouble;
+  const std::size_t first = static_cast<std::size_t>(n) * c;
+  std::copy_n(state.history.begin() + _num_history * first, _num_history * n,
+              _history.begin() + _num_history * first);
+  const auto update = [&](const auto& law)
+  {
+    for (int q = 0; q < n; ++q)
+    {
+      Point& point = _cell[c].point[q];
+      const Motion& m = point.motion;
+      const std::size_t at = first + q;
+      const material::Increment step{
+          rotate(Voigt(state.s.data() + 4 * at), m.cosine, m.sine), m.de,
+          state.P[at], point.p};
+      const auto history =
+          std::span(_history).subspan(_num_history * at, _num_history);
+      if (law.update(step, kind, history, point.answer) != Outcome::ok)
+        return "the law asks for a smaller step";
+      point.s = rotate(point.answer.s, m.cosine, m.sine);
+    }
+    return static_cast<const char*>(nullptr);
+  };
+  return std::visit(update, _law);
+}
+
+/// The bubble's own equation, by Newton; what is wrong, or null.
+template <int n>
+const char* PointElement<n>::balance_bubble(const State& state, int c,
+                                            std::span<const double> z,
+                                            const Constants& constants)
+{
+  Cell& cell = _cell[c];
+  for (int it = 0; it < max_bubble_iterations; ++it)
+  {
+    if (const char* trouble = answer(state, c, z))
+      return trouble;
+    PointInput<n> in;
+    double x[9], R[11] = {}, A[121];
+    gather(state, c, z, in, x);
+    _R(R, in, constants, x);
+    if (_newmark)
+      _R_inertia(R, in, constants, x);
+    std::copy_n(R + 9, 2, cell.force);
+    if (R[9] * R[9] + R[10] * R[10]
+        <= bubble_tolerance * bubble_tolerance * size_squared(c))
+      return nullptr;
+    tangent_of(state, c, z, constants, A);
+    keep_blocks(cell, A);
+    const auto [b0, b1] = cell.K_bb.solve(R[9], R[10]);
+    cell.bubble[0] -= b0;
+    cell.bubble[1] -= b1;
+  }
+  return "the bubble of a cell finds no balance";
+}
+
+template <int n>
+int PointElement<n>::evaluate(const State& state, std::span<const double> z,
+                              const Constants& constants, std::string& why)
+{
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+  {
+    if (_cell[c].has_blocks)
+      foresee_bubble(_cell[c], nodal(c, z));
+    if (const char* trouble = balance_bubble(state, c, z, constants))
+    {
+      why = trouble;
+      return c;
+    }
+  }
+  return -1;
 }
 
 template <int n>
@@ -263,10 +301,7 @@ void PointElement<n>::keep_blocks(Cell& cell, const double* A)
                            A[10 * 11 + 10]);
   for (int d = 0; d < 2; ++d)
     for (int i = 0; i < 9; ++i)
-    {
       cell.K_bn[d][i] = A[(9 + d) * 11 + i];
-      cell.K_nb[d][i] = A[11 * i + 9 + d];
-    }
   cell.has_blocks = true;
 }
 
@@ -275,25 +310,13 @@ void PointElement<n>::residual(const State& state, int c,
                                std::span<const double> z,
                                const Constants& constants, double* R)
 {
-  Cell& cell = _cell[c];
-  if (not cell.has_blocks)
-  {
-    double A[121];
-    tangent_of(state, c, z, constants, A);
-    keep_blocks(cell, A);
-  }
   PointInput<n> in;
   double x[9], R11[11] = {};
   gather(state, c, z, in, x);
   _R(R11, in, constants, x);
-  if (_newmark)
-    _R_inertia(R11, in, constants, x);
   if (constants.b > 0)
     _R_damping(R11, in, constants, x);
-  std::copy_n(R11 + 9, 2, cell.force);
-  const auto [b0, b1] = cell.K_bb.solve(R11[9], R11[10]);
-  for (int i = 0; i < 9; ++i)
-    R[i] = R11[i] - cell.K_nb[0][i] * b0 - cell.K_nb[1][i] * b1;
+  std::copy_n(R11, 9, R); // the bubble's inertia acts on the bubble alone
 }
 
 template <int n>
@@ -309,8 +332,7 @@ void PointElement<n>::jacobian(const State& state, int c,
   {
     const auto [b0, b1] = cell.K_bb.solve(cell.K_bn[0][j], cell.K_bn[1][j]);
     for (int i = 0; i < 9; ++i)
-      J[9 * i + j] =
-          A[11 * i + j] - cell.K_nb[0][i] * b0 - cell.K_nb[1][i] * b1;
+      J[9 * i + j] = A[11 * i + j] - A[11 * i + 9] * b0 - A[11 * i + 10] * b1;
   }
 }
 
@@ -373,11 +395,15 @@ double PointElement<n>::strain_squared(int c) const
   return sum;
 }
 
+/// Square of a force of the cell's own size.
 template <int n>
-double PointElement<n>::bubble_squared(int c) const
+double PointElement<n>::size_squared(int c) const
 {
-  return _cell[c].force[0] * _cell[c].force[0]
-         + _cell[c].force[1] * _cell[c].force[1];
+  double sum = std::pow(1e-12 * shear_modulus(), 2);
+  for (const Point& point : _cell[c].point)
+    sum += (std::pow(material::norm(point.s), 2) + point.p * point.p) / n;
+  const double side = std::pow(_volume[c], _axisymmetric ? 2. / 3 : 0.5);
+  return sum * side * side;
 }
 
 template <int n>

@@ -8,14 +8,15 @@ namespace mmale::lagrangian
 /// Layout `quadrature`: one stress state at each of n points of a cell, whose
 /// strain includes the bubble (METHOD.md, 1 Lagrangian step).
 ///
-/// The bubble is an increment, zero when a step begins. A cell's 11 equations
-/// are linear in it only at first order, so it is an unknown of Newton's: found
-/// anew for each trial from the blocks of the last tangent,
+/// The bubble is an increment, zero when a step begins. Each trial finds it
+/// anew: from the blocks of the last tangent,
 ///
 ///     b = b_k - K_bb^-1 (r_b + K_bn (z - z_k)),
 ///
-/// with b_k, z_k, r_b those of the last iteration. At convergence r_b = 0.
-/// @source Simo & Rifai, Int. J. Numer. Meth. Engng 29 (1990), for strains
+/// which is all in an elastic cell, and then by Newton on the cell's own two
+/// equations, so that residual and line search see a function of the nodal
+/// unknowns alone. (With the first alone, the residual along a line does not
+/// return to its start, and line searches stall in plastic flow.)
 template <int n>
 class PointElement final : public Element
 {
@@ -26,7 +27,7 @@ public:
   void begin_step() override;
   void begin_iteration(std::span<const double> z) override;
   int evaluate(const State& state, std::span<const double> z,
-               std::string& why) override;
+               const Constants& c, std::string& why) override;
   void residual(const State& state, int cell, std::span<const double> z,
                 const Constants& c, double* R) override;
   void jacobian(const State& state, int cell, std::span<const double> z,
@@ -41,9 +42,12 @@ public:
   std::array<double, 2> mismatch_squared(const State& state,
                                          int cell) const override;
   double strain_squared(int cell) const override;
-  double bubble_squared(int cell) const override;
 
 private:
+  /// Of a bubble's equation; elastic cells take one. Doubled: nothing.
+  static constexpr int max_bubble_iterations = 25;
+  /// Force left on a bubble, in parts of the cell's. Doubled: less digits.
+  static constexpr double bubble_tolerance = 1e-11;
   using Numbers9 = std::array<double, 9>;
   struct Point
   {
@@ -63,12 +67,17 @@ private:
     double force_k[2] = {};  ///< and at the last iteration
     Numbers9 z_k{};          ///< unknowns at the last iteration
     bool has_blocks = false;
-    Condensation K_bb; ///< of the last tangent, and its other blocks
-    Numbers9 K_bn[2], K_nb[2];
+    Condensation K_bb; ///< of the last tangent
+    Numbers9 K_bn[2];  ///< likewise
   };
   void accept_stress(State& state) const override;
   Numbers9 nodal(int cell, std::span<const double> z) const;
-  void recover_bubble(Cell& cell, const Numbers9& z) const;
+  void foresee_bubble(Cell& cell, const Numbers9& z) const;
+  const char* answer(const State& state, int c, std::span<const double> z);
+  const char* balance_bubble(const State& state, int c,
+                             std::span<const double> z,
+                             const Constants& constants);
+  double size_squared(int c) const;
   const char* strain_cell(const State& state, int c, std::span<const double> z);
   void gather(const State& state, int cell, std::span<const double> z,
               PointInput<n>& in, double* x) const;

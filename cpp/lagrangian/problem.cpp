@@ -107,7 +107,7 @@ void Problem::agree_on_failure(int cell, const std::string& why)
 bool Problem::evaluate()
 {
   std::string why;
-  const int failed = _element->evaluate(*_state, _z.array(), why);
+  const int failed = _element->evaluate(*_state, _z.array(), _constants, why);
   agree_on_failure(failed, why);
   return not _failed;
 }
@@ -118,7 +118,6 @@ void Problem::assemble_residual(double* r)
   auto force = _force.mutable_array();
   std::ranges::fill(force, 0.0);
   double size[3] = {0, 0, 0}; // squares: cell forces, strains, held increments
-  double bubbles = 0;         // square of the forces on bubbles
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
     double R[9];
@@ -132,7 +131,6 @@ void Problem::assemble_residual(double* r)
     }
     // and what the cell brought along: a step may end without stress
     size[0] += _element->force_squared(*_state, c);
-    bubbles += _element->bubble_squared(c);
     const double V = _element->volume(c) / 3;
     size[1] += 3 * V * V * (1e-32 + _element->strain_squared(c));
   }
@@ -147,7 +145,7 @@ void Problem::assemble_residual(double* r)
     hold();
   }
 
-  double norm[3] = {bubbles, 0, 0};
+  double norm[3] = {0, 0, 0};
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
   {
     const bool pressure = i % 3 == 2;
@@ -219,6 +217,7 @@ void Problem::prepare(const State& state, double t0, double t1)
   const auto g = _conditions->gravity(t1);
   _constants = {};
   _constants.dt = t1 - t0;
+  _constants.spring = _options.bubble_spring;
   std::ranges::copy(g, _constants.g);
   std::ranges::copy(t0 > 0 ? _conditions->gravity(t0) : _gravity,
                     _constants.g_n);

@@ -7,8 +7,9 @@
 #include <dolfinx/common/MPI.h>
 #include <dolfinx/fem/utils.h>
 #include <dolfinx/la/Vector.h>
-#include <set>
+#include <iterator>
 #include <stdexcept>
+#include <type_traits>
 
 namespace mmale::mesh
 {
@@ -64,29 +65,71 @@ void fill_arrays(Domain& d)
   }
 }
 
-/// The grid's boundary edges on all ranks.
-std::vector<std::array<std::int64_t, 3>> all_edges(MPI_Comm comm,
-                                                   const Grid& grid)
+/// A boundary edge, as all ranks know it.
+struct Edge
 {
-  auto edges = grid.edges;
-  std::int64_t n = edges.size();
+  std::int64_t a, b; ///< numbers in the grid
+  int boundary, side;
+};
+
+/// Plain data of rank 0 on all ranks.
+template <class T>
+void broadcast(MPI_Comm comm, std::vector<T>& v)
+{
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::int64_t n = v.size();
   MPI_Bcast(&n, 1, MPI_INT64_T, 0, comm);
-  edges.resize(n);
-  MPI_Bcast(edges.data(), static_cast<int>(3 * n), MPI_INT64_T, 0, comm);
-  return edges;
+  v.resize(n);
+  MPI_Bcast(v.data(), static_cast<int>(n * sizeof(T)), MPI_BYTE, 0, comm);
 }
 
-/// Index of the boundary that holds an edge with this midpoint.
+/// Index of the boundary that an edge of the grid belongs to.
 int name_edge(const Domain& d,
               const std::map<std::string, scene::Boundary>& boundary,
-              const std::string_view side, std::array<double, 2> midpoint)
+              const Grid& grid, const std::array<std::int64_t, 3>& edge)
 {
-  const double at =
-      side == "bottom" or side == "top" ? midpoint[0] : midpoint[1];
-  for (const auto& [name, b] : boundary)
-    if (b.side == side and at > b.from and at < b.to)
-      return d.boundary(name);
-  return d.boundary(std::string(side));
+  const auto& name = grid.names[edge[2]];
+  const int k = name == "bottom" or name == "top" ? 0 : 1;
+  const double at = (grid.x[2 * edge[0] + k] + grid.x[2 * edge[1] + k]) / 2;
+  for (const auto& [part, b] : boundary)
+    if (b.side == name and at > b.from and at < b.to)
+      return d.boundary(part);
+  return d.boundary(name);
+}
+
+/// Names, sides and boundary edges: rank 0 finds them, all get them.
+std::vector<Edge>
+name_boundary(Domain& d, const Grid& grid,
+              const std::map<std::string, scene::Boundary>& boundary)
+{
+  std::vector<Edge> edges;
+  std::vector<char> words; // the names, each with a 0 behind it
+  if (dx::MPI::rank(d.comm) == 0)
+  {
+    for (const auto& [name, b] : boundary)
+      d.boundary_names.push_back(name);
+    std::ranges::copy(grid.names, std::back_inserter(d.boundary_names));
+    std::vector<std::array<std::int64_t, 3>> named = grid.edges;
+    for (auto& edge : named)
+      edge[2] = name_edge(d, boundary, grid, edge);
+    const auto side = find_sides(grid.x, named, d.sides);
+    for (std::size_t i = 0; i < named.size(); ++i)
+      edges.push_back(
+          {named[i][0], named[i][1], static_cast<int>(named[i][2]), side[i]});
+    for (const auto& name : d.boundary_names)
+      words.insert(words.end(), name.c_str(), name.c_str() + name.size() + 1);
+  }
+  broadcast(d.comm, words);
+  broadcast(d.comm, d.sides);
+  broadcast(d.comm, edges);
+  d.boundary_names.clear();
+  for (auto it = words.begin(); it != words.end();)
+  {
+    const auto end = std::find(it, words.end(), 0);
+    d.boundary_names.emplace_back(it, end);
+    it = end + 1;
+  }
+  return edges;
 }
 } // namespace
 
@@ -111,6 +154,15 @@ std::vector<int> Domain::boundary_nodes(int boundary) const
   for (int n = 0; n < num_nodes(); ++n)
     if (mark[n] > 0)
       out.push_back(n);
+  return out;
+}
+
+std::array<bool, 2> Domain::extends(int boundary) const
+{
+  std::array<bool, 2> out = {false, false};
+  for (const Side& side : sides)
+    for (int k = 0; side.boundary == boundary and k < 2; ++k)
+      out[k] = out[k] or side.extends(k);
   return out;
 }
 
@@ -175,32 +227,19 @@ Domain make_domain(MPI_Comm comm, const Grid& grid,
   d.cell_halo = std::make_shared<Halo>(d.mesh->topology()->index_map(2));
   fill_arrays(d);
 
-  for (const auto& [name, b] : boundary)
-  {
-    d.boundary_names.push_back(name);
-    d.boundary_sides.push_back(b.side);
-  }
-  for (const auto side : side_names)
-  {
-    d.boundary_names.emplace_back(side);
-    d.boundary_sides.emplace_back(side);
-  }
-  std::map<std::array<std::int64_t, 2>, int> side_of;
-  for (const auto& [a, b, side] : all_edges(comm, grid))
-    side_of[{std::min(a, b), std::max(a, b)}] = static_cast<int>(side);
+  const std::vector<Edge> edges = name_boundary(d, grid, boundary);
+  std::map<std::array<std::int64_t, 2>, const Edge*> edge_of;
+  for (const Edge& e : edges)
+    edge_of[{std::min(e.a, e.b), std::max(e.a, e.b)}] = &e;
   for (int c = 0; c < d.num_cells(); ++c)
     for (int k = 0; k < 3; ++k)
     {
       const int a = d.cells[c][(k + 1) % 3], b = d.cells[c][(k + 2) % 3];
       const std::int64_t i = d.node_id[a], j = d.node_id[b];
-      const auto it = side_of.find({std::min(i, j), std::max(i, j)});
-      if (it == side_of.end())
-        continue;
-      const auto& x = d.initial_x;
-      d.facets.push_back({c, k, a, b,
-                          name_edge(d, boundary, side_names[it->second],
-                                    {(x[2 * a] + x[2 * b]) / 2,
-                                     (x[2 * a + 1] + x[2 * b + 1]) / 2})});
+      const auto it = edge_of.find({std::min(i, j), std::max(i, j)});
+      if (it != edge_of.end())
+        d.facets.push_back(
+            {c, k, a, b, it->second->boundary, it->second->side});
     }
   return d;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid.h"
+#include "sides.h"
 #include <dolfinx/fem/FunctionSpace.h>
 #include <dolfinx/mesh/Mesh.h>
 #include <map>
@@ -20,6 +21,7 @@ struct Facet
   int local;    ///< opposite this local vertex
   int a, b;     ///< local nodes, the body on the left going from a to b
   int boundary; ///< index into Domain::boundary_names
+  int side;     ///< index into Domain::sides
 };
 
 /// Fills the ghosts of arrays over the entities of one index map.
@@ -54,8 +56,8 @@ struct Domain
   std::vector<std::int64_t> cell_id;       ///< number in the grid
   std::vector<std::int64_t> node_id;       ///< number in the grid
   std::vector<Facet> facets;               ///< of local cells, ghosts too
-  std::vector<std::string> boundary_names; ///< named ones, then bare sides
-  std::vector<std::string> boundary_sides; ///< side that each lies on
+  std::vector<std::string> boundary_names; ///< tables, then the grid's names
+  std::vector<Side> sides;                 ///< all of the body, on all ranks
   std::vector<double> initial_x;           ///< nodes, shape (n, 2) [m]
   std::shared_ptr<Halo> node_halo, cell_halo;
   int num_owned_cells = 0;
@@ -66,6 +68,9 @@ struct Domain
   int boundary(const std::string& name) const;
   /// Nodes of a boundary, ghosts too, each once, ascending.
   std::vector<int> boundary_nodes(int boundary) const;
+  /// Is any side of a boundary longer along x (along y) than 1e-9 of its
+  /// length? Both: slanted or curved.
+  std::array<bool, 2> extends(int boundary) const;
   const dolfinx::common::IndexMap& nodes() const;
   const dolfinx::common::IndexMap& cell_map() const;
   /// Write coordinates, shape (n, 2), into the DOLFINx geometry.
@@ -74,6 +79,8 @@ struct Domain
 
 /// Distribute a grid and name its boundary. Collective; the grid is read on
 /// rank 0 only.
+///
+/// @param[in] boundary named parts of the grid's own sides
 Domain make_domain(MPI_Comm comm, const Grid& grid,
                    const std::map<std::string, scene::Boundary>& boundary);
 } // namespace mmale::mesh

@@ -129,6 +129,7 @@ Grid make_grid(const scene::Mesh& coarse)
   const auto corner = corners(mesh);
   const std::size_t nx = line[0].size() - 1, ny = line[1].size() - 1;
   Grid grid;
+  grid.names.assign(side_names.begin(), side_names.end());
   for (double b : line[1])
     for (double a : line[0])
       for (int d = 0; d < 2; ++d)

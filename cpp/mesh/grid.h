@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,12 +15,16 @@ inline constexpr std::array<std::string_view, 4> side_names{"bottom", "right",
                                                             "top", "left"};
 
 /// A whole mesh as plain arrays, before it is distributed.
+///
+/// Each node of the boundary has one edge that ends there and one that starts.
 struct Grid
 {
   std::vector<double> x;           ///< nodes, shape (n, 2) [m]
   std::vector<std::int64_t> cells; ///< shape (m, 3), counter-clockwise
-  /// Boundary edges (node, node, side), the body on the left.
+  /// Boundary edges (node, node, index into names), the body on the left.
   std::vector<std::array<std::int64_t, 3>> edges;
+  /// Sides or, of a mesh from gmsh, physical curves; "" for the edges of none.
+  std::vector<std::string> names;
 };
 
 /// Points from 0 to `length`, closest together at `towards`.

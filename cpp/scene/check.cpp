@@ -3,6 +3,7 @@
 #include "scene/check_parts.h"
 #include "scene/schema.h"
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <format>
 
@@ -133,10 +134,10 @@ public:
 
   template <class F>
   void only_with(const std::string&, const std::string& chosen,
-                 const std::vector<std::string>& choices, std::size_t wanted,
-                 F visit_keys)
+                 const std::vector<std::string>& choices,
+                 std::initializer_list<std::size_t> wanted, F visit_keys)
   {
-    if (chosen == choices[wanted])
+    if (is_one_of(chosen, choices, wanted))
       visit_keys();
   }
 
@@ -213,6 +214,19 @@ std::string Range::words() const
   return "";
 }
 
+bool is_name(const std::string& name)
+{
+  const auto letter = [](unsigned char c)
+  { return c == '_' or (c < 128 and std::isalpha(c)); };
+  return not name.empty() and letter(static_cast<unsigned char>(name[0]))
+         and std::ranges::all_of(name,
+                                 [&](unsigned char c)
+                                 {
+                                   return letter(c) or c == '-'
+                                          or (c < 128 and std::isdigit(c));
+                                 });
+}
+
 std::string stage_label(const std::vector<Stage>& stages, std::size_t i)
 {
   const std::string& name = stages[i].name;
@@ -220,19 +234,22 @@ std::string stage_label(const std::vector<Stage>& stages, std::size_t i)
   return name.empty() or not own ? std::to_string(i) : name;
 }
 
-std::vector<Complaint> check(Scene scene, const Libraries& libraries)
+std::vector<Complaint> check(Scene scene, const Libraries& libraries,
+                             const OutlineReader& read_mesh)
 {
   Complaints out;
   Checker checker("", out);
   keys(checker, scene);
   check_mesh(scene, out);
   check_boundaries(scene, out);
+  const auto outline = outline_of(scene, read_mesh, out);
+  const Outline* known = outline ? &*outline : nullptr;
   check_materials(scene, libraries, out);
-  check_stages(scene, out);
+  check_stages(scene, known, out);
   check_solver(scene, out);
-  check_remap(scene, libraries, out);
-  check_tracers(scene, out);
-  check_output(scene, libraries, out);
+  check_remap(scene, libraries, known, out);
+  check_tracers(scene, known, out);
+  check_output(scene, libraries, known, out);
   return out;
 }
 } // namespace mmale::scene

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/complaint.h"
+#include "scene/outline.h"
 #include "scene/parameter.h"
 #include "scene/scene.h"
 #include <string>
@@ -10,10 +11,19 @@
 /// Everything that can be wrong with a scene, however it was built.
 namespace mmale::scene
 {
-/// All complaints about a scene; empty is good. Places are left empty.
+/// All complaints about a scene; empty is good. Places in the scene's own text
+/// are left empty.
 ///
 /// By value, because the schema visits through mutable references.
-std::vector<Complaint> check(Scene scene, const Libraries& libraries);
+///
+/// @param read_mesh  for shape "gmsh"; without it, what only the mesh tells
+///                   (names of boundaries) is not checked
+std::vector<Complaint> check(Scene scene, const Libraries& libraries,
+                             const OutlineReader& read_mesh = {});
+
+/// Names become columns, folders and parts of dotted keys: letters, digits, _
+/// and -, the first a letter or _.
+bool is_name(const std::string& name);
 
 /// Name of a stage in dotted keys: its own, or its number when it has none
 /// of its own.

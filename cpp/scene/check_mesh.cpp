@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <format>
+#include <iterator>
 
 namespace mmale::scene
 {
@@ -123,6 +124,27 @@ void check_grading(const Mesh& mesh, Complaints& out)
                    {}});
 }
 
+/// Can the mesh file be looked for at all?
+bool is_readable(const Mesh& mesh)
+{
+  return is_geo(mesh) ? mesh.refine > 0 : is_msh(mesh);
+}
+
+void check_file(const Mesh& mesh, Complaints& out)
+{
+  if (mesh.file.empty())
+    return; // a missing key
+  if (not is_geo(mesh) and not is_msh(mesh))
+    out.push_back(
+        {"mesh.file", "must end in .geo or .msh, is '" + mesh.file + "'", {}});
+  if (is_msh(mesh) and mesh.refine > 0 and mesh.refine != 1)
+    out.push_back({"mesh.refine",
+                   std::format("must be 1, is {}: a .msh is taken as it is; "
+                               "only a .geo can be meshed anew",
+                               mesh.refine),
+                   {}});
+}
+
 /// Start and end of a boundary along its side, and those of the side [m].
 struct Extent
 {
@@ -176,6 +198,16 @@ void check_side(const Scene& scene, const std::string& side, Complaints& out)
 }
 } // namespace
 
+bool is_geo(const Mesh& mesh)
+{
+  return mesh.file.ends_with(".geo");
+}
+
+bool is_msh(const Mesh& mesh)
+{
+  return mesh.file.ends_with(".msh");
+}
+
 std::array<Point, 4> corners_of(const Mesh& mesh)
 {
   if (mesh.shape != "rectangle")
@@ -223,6 +255,8 @@ std::string words(const Point& x)
 void check_mesh(const Scene& scene, Complaints& out)
 {
   const Mesh& mesh = scene.mesh;
+  if (mesh.shape == "gmsh")
+    return check_file(mesh, out);
   const auto x = corners_of(mesh);
   const bool quadrilateral = mesh.shape == "quadrilateral";
   const bool known = std::ranges::none_of(x, [](const Point& p)
@@ -244,23 +278,70 @@ void check_mesh(const Scene& scene, Complaints& out)
                    {}});
 }
 
-std::vector<std::string> boundary_names(const Scene& scene)
+const Outline::Part* Outline::find(const std::string& name) const
 {
-  std::vector<std::string> names = sides;
-  for (const auto& [name, boundary] : scene.boundary)
-    names.push_back(name);
-  return names;
+  const auto at = std::ranges::find(boundary, name, &Part::name);
+  return at == boundary.end() ? nullptr : &*at;
 }
 
-std::string side_of(const Scene& scene, const std::string& name)
+std::vector<std::string> Outline::names() const
 {
-  if (const auto at = scene.boundary.find(name); at != scene.boundary.end())
-    return at->second.side;
-  return std::ranges::find(sides, name) == sides.end() ? "" : name;
+  std::vector<std::string> list;
+  for (const Part& part : boundary)
+    list.push_back(part.name);
+  return list;
+}
+
+std::optional<Outline>
+outline_of(const Scene& scene, const OutlineReader& read_mesh, Complaints& out)
+{
+  if (scene.mesh.shape == "gmsh")
+  {
+    if (not read_mesh or not is_readable(scene.mesh))
+      return std::nullopt;
+    Outline outline = read_mesh(scene);
+    std::ranges::move(outline.complaints, std::back_inserter(out));
+    return outline.complaints.empty() ? std::optional(std::move(outline))
+                                      : std::nullopt;
+  }
+  Outline outline;
+  const auto add = [&](const std::string& name, const std::string& side)
+  {
+    const auto [a, b] = side_ends(scene.mesh, side);
+    const double slack = 1e-9 * distance(a, b);
+    outline.boundary.push_back(
+        {name,
+         true,
+         {std::abs(b[0] - a[0]) > slack, std::abs(b[1] - a[1]) > slack}});
+  };
+  for (const std::string& side : sides)
+    add(side, side);
+  for (const auto& [name, boundary] : scene.boundary)
+    add(name, boundary.side);
+  const auto corners = corners_of(scene.mesh);
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const auto along = [d](const Point& x) { return x[d]; };
+    const auto [low, high] = std::ranges::minmax(corners, {}, along);
+    outline.low[d] = low[d];
+    outline.high[d] = high[d];
+  }
+  outline.may_hold = [mesh = scene.mesh](const Point& x)
+  { return may_be_inside(mesh, x); };
+  return outline;
 }
 
 void check_boundaries(const Scene& scene, Complaints& out)
 {
+  if (scene.mesh.shape == "gmsh")
+  {
+    for (const auto& [name, boundary] : scene.boundary)
+      out.push_back({"boundary." + name,
+                     "is for the built-in shapes: of a gmsh mesh the physical "
+                     "curves are the boundaries, by their names",
+                     {}});
+    return;
+  }
   for (const auto& [name, boundary] : scene.boundary)
   {
     const std::string key = "boundary." + name;

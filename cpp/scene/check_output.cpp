@@ -18,6 +18,21 @@ std::vector<std::string> names_of(const std::map<std::string, T>& tables)
   return list;
 }
 
+/// May a line end here? On a curved boundary the ends of lines, as they are
+/// meant, lie a little outside of the cells.
+bool may_reach(const Scene& scene, const Outline& outline, const Point& x)
+{
+  if (scene.mesh.shape != "gmsh")
+    return outline.may_hold(x);
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const double slack = 1e-9 * (outline.high[d] - outline.low[d]);
+    if (not(x[d] >= outline.low[d] - slack and x[d] <= outline.high[d] + slack))
+      return false;
+  }
+  return true;
+}
+
 /// A curve of a tracer: it names one and nothing else.
 void check_tracer_curve(const Scene& scene, const Curve& c,
                         const std::string& key, Complaints& out)
@@ -41,9 +56,10 @@ void check_tracer_curve(const Scene& scene, const Curve& c,
 }
 
 /// A curve of the body: it names a boundary or a point.
-void check_body_curve(const Scene& scene, const Curve& c,
-                      const std::string& key, Complaints& out)
+void check_body_curve(const Scene& scene, const Outline* outline,
+                      const Curve& c, const std::string& key, Complaints& out)
 {
+  const auto known = outline ? outline->names() : std::vector<std::string>();
   const bool reaction = c.quantity.starts_with("reaction");
   if (scene.motion)
     out.push_back({key + ".quantity",
@@ -70,17 +86,20 @@ void check_body_curve(const Scene& scene, const Curve& c,
   else if (c.boundary.empty() and (reaction or not c.point))
     out.push_back({key + ".boundary",
                    missing("Boundary of " + c.quantity, "",
-                           "one of " + join(boundary_names(scene)))
+                           outline ? "one of " + join(known) : "")
                        + (reaction ? "" : "; or a point"),
                    {}});
-  const auto known = boundary_names(scene);
-  if (not c.boundary.empty()
-      and std::ranges::find(known, c.boundary) == known.end())
+  if (not outline)
+    return;
+  const Outline::Part* part = outline->find(c.boundary);
+  if (not c.boundary.empty() and not part)
     out.push_back(
         {key + ".boundary",
          "no boundary '" + c.boundary + "', " + suggestion(c.boundary, known),
          {}});
-  if (c.point and not may_be_inside(scene.mesh, *c.point))
+  if (not c.breadth.empty() and part and not part->straight)
+    out.push_back({key + ".breadth", "needs a straight boundary", {}});
+  if (c.point and not outline->may_hold(*c.point))
     out.push_back(
         {key + ".point", words(*c.point) + " lies outside the mesh", {}});
 }
@@ -107,7 +126,7 @@ void check_energy_curve(const Scene& scene, const Curve& c,
       out.push_back({key + name, "is not used by " + c.quantity, {}});
 }
 
-void check_curves(const Scene& scene, Complaints& out)
+void check_curves(const Scene& scene, const Outline* outline, Complaints& out)
 {
   for (const auto& [name, c] : scene.output.curve)
   {
@@ -125,7 +144,7 @@ void check_curves(const Scene& scene, Complaints& out)
     else if (is_energy(c.quantity))
       check_energy_curve(scene, c, key, out);
     else
-      check_body_curve(scene, c, key, out);
+      check_body_curve(scene, outline, c, key, out);
   }
 }
 
@@ -196,15 +215,15 @@ void check_pictures(const Scene& scene, const Libraries& libraries, double end,
 }
 } // namespace
 
-void check_tracers(const Scene& scene, Complaints& out)
+void check_tracers(const Scene& scene, const Outline* outline, Complaints& out)
 {
-  const auto corners = corners_of(scene.mesh);
+  if (not outline)
+    return;
   for (const auto& [name, t] : scene.tracer)
     for (std::size_t d = 0; d < 2; ++d)
     {
-      const auto along = [d](const Point& x) { return x[d]; };
-      const auto [low, high] = std::ranges::minmax(corners, {}, along);
-      if (t.centre[d] + t.radius <= low[d] or t.centre[d] - t.radius >= high[d])
+      if (t.centre[d] + t.radius <= outline->low[d]
+          or t.centre[d] - t.radius >= outline->high[d])
       {
         out.push_back({"tracer." + name,
                        std::format("the circle around {} of radius {} m lies "
@@ -217,12 +236,12 @@ void check_tracers(const Scene& scene, Complaints& out)
 }
 
 void check_output(const Scene& scene, const Libraries& libraries,
-                  Complaints& out)
+                  const Outline* outline, Complaints& out)
 {
   double end = 0;
   for (const Stage& stage : scene.stage)
     end += stage.duration;
-  check_curves(scene, out);
+  check_curves(scene, outline, out);
   check_charts(scene, out);
   check_pictures(scene, libraries, end, out);
   for (const auto& [name, line] : scene.output.line)
@@ -230,10 +249,10 @@ void check_output(const Scene& scene, const Libraries& libraries,
     const std::string key = "output.line." + name;
     if (line.from == line.to)
       out.push_back({key + ".to", "is the start of the line too", {}});
-    if (not may_be_inside(scene.mesh, line.from))
+    if (outline and not may_reach(scene, *outline, line.from))
       out.push_back(
           {key + ".from", words(line.from) + " lies outside the mesh", {}});
-    if (not may_be_inside(scene.mesh, line.to))
+    if (outline and not may_reach(scene, *outline, line.to))
       out.push_back(
           {key + ".to", words(line.to) + " lies outside the mesh", {}});
   }

@@ -3,6 +3,7 @@
 
 #include "scene/check.h"
 #include <array>
+#include <optional>
 
 /// The checks that look at several keys together, one function a topic.
 ///
@@ -16,15 +17,25 @@ void check_mesh(const Scene& scene, Complaints& out);
 void check_boundaries(const Scene& scene, Complaints& out);
 void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out);
-void check_stages(const Scene& scene, Complaints& out);
+// The outline is null where nothing is known of it.
+void check_stages(const Scene& scene, const Outline* outline, Complaints& out);
 /// Layout and element of the Lagrangian step.
 void check_solver(const Scene& scene, Complaints& out);
 
 void check_remap(const Scene& scene, const Libraries& libraries,
-                 Complaints& out);
-void check_tracers(const Scene& scene, Complaints& out);
+                 const Outline* outline, Complaints& out);
+void check_tracers(const Scene& scene, const Outline* outline, Complaints& out);
 void check_output(const Scene& scene, const Libraries& libraries,
-                  Complaints& out);
+                  const Outline* outline, Complaints& out);
+
+/// The outline, from the scene or by `read_mesh`; nothing if it cannot be
+/// had. What the mesh file suffers from is added to `out`.
+std::optional<Outline>
+outline_of(const Scene& scene, const OutlineReader& read_mesh, Complaints& out);
+
+/// What kind of gmsh file the scene names.
+bool is_geo(const Mesh& mesh);
+bool is_msh(const Mesh& mesh);
 
 /// Corners of the domain, counter-clockwise from (left, bottom); NaN where
 /// the scene does not tell [m].
@@ -33,12 +44,6 @@ std::array<Point, 4> corners_of(const Mesh& mesh);
 /// False when `x` lies outside the domain by more than round-off; true too
 /// when the domain is not known or not convex.
 bool may_be_inside(const Mesh& mesh, const Point& x);
-
-/// Names that stages and curves may use: the sides and the named boundaries.
-std::vector<std::string> boundary_names(const Scene& scene);
-
-/// Side that a boundary name belongs to; "" when there is none.
-std::string side_of(const Scene& scene, const std::string& boundary);
 
 /// Ends of a side [m], in the corners' order.
 std::array<Point, 2> side_ends(const Mesh& mesh, const std::string& side);

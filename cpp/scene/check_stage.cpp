@@ -16,26 +16,26 @@ struct Direction
   bool moved() const { return displacement or velocity; }
 };
 
-/// Directions that a roller on this side blocks: {x, y}. A slanted side
-/// blocks a mixture of both.
-std::array<bool, 2> blocked_by_roller(const Mesh& mesh, const std::string& side)
-{
-  const auto [a, b] = side_ends(mesh, side);
-  const double slack = 1e-9 * std::hypot(b[0] - a[0], b[1] - a[1]);
-  return {std::abs(b[1] - a[1]) > slack, std::abs(b[0] - a[0]) > slack};
-}
-
 /// One condition: at most one thing may hold along a direction.
-void check_condition(const Scene& scene, const std::string& boundary,
-                     const Condition& c, const std::string& key,
-                     Complaints& out)
+///
+/// @param part  the boundary; null where nothing is known of it
+void check_condition(const Outline::Part* part, const Condition& c,
+                     const std::string& key, Complaints& out)
 {
   const std::array<Direction, 2> directions = {
       {{"x", c.displacement_x.has_value(), c.velocity_x.has_value(),
         c.traction_x.has_value()},
        {"y", c.displacement_y.has_value(), c.velocity_y.has_value(),
         c.traction_y.has_value()}}};
-  const auto blocked = blocked_by_roller(scene.mesh, side_of(scene, boundary));
+  // Directions that a roller blocks; a slanted boundary would block a mixture.
+  std::array<bool, 2> blocked = {false, false};
+  if (part)
+    blocked = {part->extends[1], part->extends[0]};
+  if (c.roller and blocked[0] and blocked[1])
+    out.push_back({key + ".roller",
+                   "the boundary is slanted or curved; a roller needs one that "
+                   "is straight along x or y",
+                   {}});
   bool pressed_in_vain = c.fixed or c.roller;
   for (std::size_t d = 0; d < 2; ++d)
   {
@@ -237,7 +237,7 @@ void check_materials(const Scene& scene, const Libraries& libraries,
   }
 }
 
-void check_stages(const Scene& scene, Complaints& out)
+void check_stages(const Scene& scene, const Outline* outline, Complaints& out)
 {
   if (scene.stage.empty())
     out.push_back({"stage",
@@ -246,7 +246,7 @@ void check_stages(const Scene& scene, Complaints& out)
                    {}});
   if (scene.motion)
     check_motion(scene, out);
-  const auto known = boundary_names(scene);
+  const auto known = outline ? outline->names() : std::vector<std::string>();
   for (std::size_t i = 0; i < scene.stage.size(); ++i)
   {
     const Stage& stage = scene.stage[i];
@@ -266,11 +266,12 @@ void check_stages(const Scene& scene, Complaints& out)
     for (const auto& [name, condition] : stage.boundary)
     {
       const std::string where = key + ".boundary." + name;
-      if (std::ranges::find(known, name) == known.end())
+      const Outline::Part* part = outline ? outline->find(name) : nullptr;
+      if (outline and not part)
         out.push_back(
             {where, "no such boundary, " + suggestion(name, known), {}});
       else
-        check_condition(scene, name, condition, where, out);
+        check_condition(part, condition, where, out);
     }
   }
 }
@@ -288,7 +289,7 @@ void check_solver(const Scene& scene, Complaints& out)
 }
 
 void check_remap(const Scene& scene, const Libraries& libraries,
-                 Complaints& out)
+                 const Outline* outline, Complaints& out)
 {
   const Remap& remap = scene.remap;
   if (remap.mode != RemapMode::lagrangian and remap.every == 0
@@ -317,14 +318,16 @@ void check_remap(const Scene& scene, const Libraries& libraries,
   if (remap.mode != RemapMode::lagrangian)
     one_of("remap.transport", remap.transport, libraries.transports,
            "transport scheme");
-  const auto known = boundary_names(scene);
+  const auto known = outline ? outline->names() : std::vector<std::string>();
   for (const std::string& name : remap.surface)
   {
-    one_of("remap.surface", name, known, "boundary");
+    if (outline)
+      one_of("remap.surface", name, known, "boundary");
     if (std::ranges::find(remap.open, name) != remap.open.end())
       out.push_back({"remap.open", "'" + name + "' is in surface too", {}});
   }
   for (const std::string& name : remap.open)
-    one_of("remap.open", name, known, "boundary");
+    if (outline)
+      one_of("remap.open", name, known, "boundary");
 }
 } // namespace mmale::scene

@@ -116,10 +116,10 @@ public:
 
   template <class F>
   void only_with(const std::string&, const std::string& chosen,
-                 const std::vector<std::string>& choices, std::size_t wanted,
-                 F visit_keys)
+                 const std::vector<std::string>& choices,
+                 std::initializer_list<std::size_t> wanted, F visit_keys)
   {
-    if (chosen == choices[wanted])
+    if (is_one_of(chosen, choices, wanted))
       visit_keys();
   }
 

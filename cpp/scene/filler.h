@@ -5,7 +5,6 @@
 #include "scene/document.h"
 #include "scene/schema.h"
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -32,20 +31,6 @@ struct Record
 inline std::string under(const std::string& path, const std::string& name)
 {
   return path.empty() ? name : path + "." + name;
-}
-
-/// Names become columns, folders and parts of dotted keys.
-inline bool is_name(const std::string& name)
-{
-  const auto letter = [](unsigned char c)
-  { return c == '_' or (c < 128 and std::isalpha(c)); };
-  return not name.empty() and letter(name[0])
-         and std::ranges::all_of(name,
-                                 [&](unsigned char c)
-                                 {
-                                   return letter(c) or c == '-'
-                                          or (c < 128 and std::isdigit(c));
-                                 });
 }
 
 /// Fills one table from its node; a visitor of `keys`.
@@ -276,14 +261,14 @@ public:
 
   template <class F>
   void only_with(const std::string& selector, const std::string& chosen,
-                 const std::vector<std::string>& choices, std::size_t wanted,
-                 F visit_keys)
+                 const std::vector<std::string>& choices,
+                 std::initializer_list<std::size_t> wanted, F visit_keys)
   {
     // An unknown choice is a complaint of its own: then nothing is known
     // about these keys.
     if (std::ranges::find(choices, chosen) != choices.end()
-        and chosen != choices[wanted])
-      _only_with = selector + " = \"" + choices[wanted] + "\"";
+        and not is_one_of(chosen, choices, wanted))
+      _only_with = selector + " = " + alternatives(choices, wanted);
     visit_keys();
     _only_with.clear();
   }

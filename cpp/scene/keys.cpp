@@ -125,14 +125,14 @@ public:
 
   template <class F>
   void only_with(const std::string& selector, const std::string&,
-                 const std::vector<std::string>& choices, std::size_t wanted,
-                 F visit_keys)
+                 const std::vector<std::string>& choices,
+                 std::initializer_list<std::size_t> wanted, F visit_keys)
   {
     const std::size_t first = _out.size();
     visit_keys();
     for (std::size_t i = first; i < _out.size(); ++i)
-      _out[i].sentence +=
-          std::format(" Only with {} = \"{}\".", selector, choices[wanted]);
+      _out[i].sentence += " Only with " + selector + " = "
+                          + alternatives(choices, wanted) + ".";
   }
 
 private:

@@ -65,7 +65,8 @@ FileText load(const std::filesystem::path& path)
 }
 
 Reading read(std::string_view text, const std::string& file,
-             std::span<const Override> overrides, const Libraries& libraries)
+             std::span<const Override> overrides, const Libraries& libraries,
+             const OutlineReader& read_mesh)
 {
   Reading reading;
   Document document = parse(text, file);
@@ -80,18 +81,22 @@ Reading read(std::string_view text, const std::string& file,
   Filler filler(document.root, "", record);
   keys(filler, reading.scene);
   filler.finish();
+  reading.scene.mesh.folder = std::filesystem::path(file).parent_path();
 
-  for (Complaint& complaint : check(reading.scene, libraries))
+  for (Complaint& complaint : check(reading.scene, libraries, read_mesh))
     if (not has_failed(record, complaint.key))
     {
-      complaint.place = place_of(record, complaint.key, document.root.place);
+      if (complaint.place.file.empty())
+        complaint.place = place_of(record, complaint.key, document.root.place);
       record.complaints.push_back(std::move(complaint));
     }
   std::ranges::stable_sort(record.complaints, {},
-                           [](const Complaint& c)
+                           [&](const Complaint& c)
                            {
-                             return std::tuple(c.place.file == "command line",
-                                               c.place.line, c.key);
+                             // what the scene's own text is to blame for first
+                             return std::tuple(c.place.file != file,
+                                               c.place.file, c.place.line,
+                                               c.key);
                            });
   reading.complaints = std::move(record.complaints);
   return reading;

@@ -3,6 +3,7 @@
 
 #include "scene/complaint.h"
 #include "scene/document.h"
+#include "scene/outline.h"
 #include "scene/parameter.h"
 #include "scene/scene.h"
 #include <filesystem>
@@ -37,6 +38,8 @@ FileText load(const std::filesystem::path& path);
 /// @param file       its name for messages
 /// @param overrides  changes, in order; the last on a key holds
 /// @param libraries  laws, smoothers and schemes that may be named
+/// @param read_mesh  for a gmsh mesh, see `check`
 Reading read(std::string_view text, const std::string& file,
-             std::span<const Override> overrides, const Libraries& libraries);
+             std::span<const Override> overrides, const Libraries& libraries,
+             const OutlineReader& read_mesh = {});
 } // namespace mmale::scene

@@ -44,13 +44,18 @@ struct Grading
   double radius = 0;    ///< uniform fine zone around it [m]
 };
 
-/// A rectangle [0, width] x [0, height], or a quadrilateral given by corners.
+/// A rectangle [0, width] x [0, height], a quadrilateral given by corners, or
+/// triangles from gmsh.
 ///
-/// Sides are named left, right, bottom, top. Corners run counter-clockwise
-/// from (left, bottom).
+/// Sides of the first two are named left, right, bottom, top; corners run
+/// counter-clockwise from (left, bottom). Of a gmsh mesh the physical curves
+/// are the boundaries.
 struct Mesh
 {
-  std::string shape;        ///< "rectangle" | "quadrilateral"
+  std::string shape;        ///< "rectangle" | "quadrilateral" | "gmsh"
+  std::string file;         ///< gmsh only: a .geo or a .msh
+  std::string folder;       ///< where a relative `file` starts; no key: the
+                            ///< reader puts the scene's own folder
   double width = required;  ///< rectangle only [m]
   double height = required; ///< rectangle only [m]
   Point origin = {0, 0};    ///< rectangle's lower left corner [m]
@@ -65,7 +70,7 @@ struct Mesh
   std::optional<Grading> grading;
   double distortion = 0; ///< inner nodes moved at random by up to this share
                          ///< of the local edge, 0 <= distortion < 0.4
-  double refine = 1;     ///< every edge is divided by it
+  double refine = 1;     ///< every edge is divided by it; 1 for a .msh
 
   /// The same mesh with refine = 1 and the sizes or cells that it comes to.
   Mesh refined() const;
@@ -195,8 +200,10 @@ struct Solver
   int max_iterations = 15; ///< a step with more fails and is halved
   int lag_jacobian = 1;    ///< factorise every n-th Newton iteration
   bool line_search = true;
-  bool plastic_bubble = true; ///< METHOD.md, form P; off: noisier pressure
-  std::string petsc;          ///< more PETSc options, prefix `lagrangian_`
+  bool plastic_bubble = true;  ///< METHOD.md, form P; off: noisier pressure
+  double bubble_spring = 0.05; ///< of layout `quadrature`, METHOD.md; 0: steps
+                               ///< fail in plastic flow after remaps
+  std::string petsc;           ///< more PETSc options, prefix `lagrangian_`
 };
 
 enum class RemapMode

@@ -3,7 +3,9 @@
 
 #include "scene/range.h"
 #include "scene/scene.h"
+#include <algorithm>
 #include <concepts>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -78,13 +80,32 @@ const std::vector<std::string>& names()
 inline const std::vector<std::string> sides = {"left", "right", "bottom",
                                                "top"};
 inline const std::vector<std::string> mesh_shapes = {"rectangle",
-                                                     "quadrilateral"};
+                                                     "quadrilateral", "gmsh"};
 inline const std::vector<std::string> quantities = {
     "displacement_x", "displacement_y", "velocity_x",   "velocity_y",
     "reaction_x",     "reaction_y",     "pressure",     "stress_xx",
     "stress_yy",      "stress_zz",      "stress_xy",    "kinetic_energy",
     "internal_work",  "external_work",  "total_energy", "tracer_max",
     "tracer_min",     "tracer_total"};
+
+/// Is the text among the wanted ones of the choices?
+inline bool is_one_of(const std::string& text,
+                      const std::vector<std::string>& choices,
+                      std::initializer_list<std::size_t> wanted)
+{
+  return std::ranges::any_of(wanted,
+                             [&](std::size_t i) { return text == choices[i]; });
+}
+
+/// "\"a\" or \"b\"", the wanted ones of the choices.
+inline std::string alternatives(const std::vector<std::string>& choices,
+                                std::initializer_list<std::size_t> wanted)
+{
+  std::string text;
+  for (std::size_t i : wanted)
+    text += (text.empty() ? "\"" : " or \"") + choices[i] + "\"";
+  return text;
+}
 
 template <class V>
 void keys(V& v, Grading& g)
@@ -103,35 +124,53 @@ void keys(V& v, Mesh& m)
 {
   v({"shape", "", "Shape of the domain.", {}, mesh_shapes, true}, m.shape);
   v.only_with(
-      "shape", m.shape, mesh_shapes, 0,
+      "shape", m.shape, mesh_shapes, {0},
       [&]
       {
         v({"width", "m", "Width of the rectangle.", above(0)}, m.width);
         v({"height", "m", "Height of the rectangle.", above(0)}, m.height);
         v({"origin", "m", "Lower left corner of the rectangle."}, m.origin);
       });
-  v.only_with("shape", m.shape, mesh_shapes, 1,
+  v.only_with("shape", m.shape, mesh_shapes, {1},
               [&]
               {
                 v({"corners", "m",
                    "Corners, counter-clockwise from the lower left one."},
                   m.corners);
               });
-  v({"size", "m", "Edge of the cells away from the grading, instead of cells.",
-     at_least(0)},
-    m.size);
-  v({"cells", "-", "Number of edges along x and y, instead of size.",
-     at_least(0)},
-    m.cells);
-  v({"diagonal", "", "How a quadrilateral is cut into two triangles."},
-    m.diagonal);
-  v({"grading", "", "Smaller cells around a point."}, m.grading);
-  v({"distortion",
-     "-",
-     "Inner nodes are moved at random by up to this share of an edge.",
-     {0, 0.4, false, true}},
-    m.distortion);
-  v({"refine", "-", "Divides size and the grading's size, multiplies cells.",
+  v.only_with("shape", m.shape, mesh_shapes, {2},
+              [&]
+              {
+                v({"file",
+                   "",
+                   "Gmsh file, .geo or .msh, beside the scene.",
+                   {},
+                   {},
+                   true},
+                  m.file);
+              });
+  v.only_with(
+      "shape", m.shape, mesh_shapes, {0, 1},
+      [&]
+      {
+        v({"size", "m",
+           "Edge of the cells away from the grading, instead of cells.",
+           at_least(0)},
+          m.size);
+        v({"cells", "-", "Number of edges along x and y, instead of size.",
+           at_least(0)},
+          m.cells);
+        v({"diagonal", "", "How a quadrilateral is cut into two triangles."},
+          m.diagonal);
+        v({"grading", "", "Smaller cells around a point."}, m.grading);
+        v({"distortion",
+           "-",
+           "Inner nodes are moved at random by up to this share of an edge.",
+           {0, 0.4, false, true}},
+          m.distortion);
+      });
+  v({"refine", "-",
+     "Divides size, the grading's size and a .geo's sizes, multiplies cells.",
      above(0)},
     m.refine);
 }
@@ -287,6 +326,11 @@ void keys(V& v, Solver& s)
   v({"plastic_bubble", "",
      "The bubble softens as the cell yields; off gives a noisier pressure."},
     s.plastic_bubble);
+  v({"bubble_spring",
+     "-",
+     "Share of the elastic stiffness that holds the bubble, layout quadrature.",
+     {0, 1, false, false}},
+    s.bubble_spring);
   v({"petsc", "", "More PETSc options, each with the prefix lagrangian_."},
     s.petsc);
 }

@@ -265,12 +265,12 @@ echo 0.5 > "$fake/candidate"
 echo 1000 > "$fake/free"
 call demo
 expect_code 1
-expect "no space: $(cache) has 1000 MB, a root takes 3300"
+expect "no space: $(cache) has 1000 MB, a root takes 3500"
 expect_one_line
 echo 6000 > "$fake/free"
 call demo
 expect_code 1
-expect "no space: making the root takes 4200 MB in /tmp or /var/tmp"
+expect "no space: making the root takes 4500 MB in /tmp or /var/tmp"
 expect_no_log mmdebstrap
 echo 7600 > "$fake/free"
 call demo

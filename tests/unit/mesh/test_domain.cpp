@@ -2,6 +2,7 @@
 // Runs on any number of processes; what it checks is the same on all.
 #include "environment.h"
 #include "mesh/domain.h"
+#include "mesh/gmsh.h"
 
 #include <algorithm>
 #include <catch2/catch_approx.hpp>
@@ -162,6 +163,60 @@ TEST_CASE("ghosts get their owner's values", "[unit][domain]")
   d.node_halo->update(at_nodes, 1);
   for (int n = 0; n < d.num_nodes(); ++n)
     CHECK(at_nodes[n] == static_cast<double>(d.node_id[n]));
+}
+
+TEST_CASE("a mesh from gmsh is the same body on any number of processes",
+          "[unit][domain]")
+{
+  scene::Scene scene;
+  scene.mesh.shape = "gmsh";
+  scene.mesh.file = "ring.msh";
+  scene.mesh.folder = MESHES;
+  const Domain d = mesh::make_domain(
+      MPI_COMM_WORLD, mesh::obtain_grid(MPI_COMM_WORLD, scene), {});
+  REQUIRE(d.boundary_names
+          == std::vector<std::string>{"inner", "level", "outer", "upright"});
+  std::vector<double> length(4), edges(4), area(1);
+  const auto& x = d.initial_x;
+  for (const auto& f : d.facets)
+  {
+    const mesh::Side& side = d.sides.at(f.side);
+    CHECK(side.boundary == f.boundary);
+    if (f.cell >= d.num_owned_cells)
+      continue;
+    edges[f.boundary] += 1;
+    length[f.boundary] +=
+        std::hypot(x[2 * f.b] - x[2 * f.a], x[2 * f.b + 1] - x[2 * f.a + 1]);
+  }
+  for (int c = 0; c < d.num_owned_cells; ++c)
+  {
+    const auto [i, j, k] = d.cells[c];
+    area[0] += 0.5
+               * ((x[2 * j] - x[2 * i]) * (x[2 * k + 1] - x[2 * i + 1])
+                  - (x[2 * k] - x[2 * i]) * (x[2 * j + 1] - x[2 * i + 1]));
+  }
+  length = sum(length);
+  edges = sum(edges);
+  area = sum(area);
+  // arcs in n equal edges: 2 r n sin(pi / 4 n); the body between the polygons
+  const double pi = std::acos(-1.0);
+  const auto chords = [&](double r, double n)
+  { return 2 * r * n * std::sin(pi / 4 / n); };
+  const auto sector = [&](double r, double n)
+  { return 0.5 * r * r * n * std::sin(pi / 2 / n); };
+  CHECK(length[0] == Approx(chords(0.1, edges[0])).epsilon(1e-9));
+  CHECK(length[2] == Approx(chords(0.2, edges[2])).epsilon(1e-9));
+  CHECK(length[1] == Approx(0.1).epsilon(1e-9));
+  CHECK(length[3] == Approx(0.1).epsilon(1e-9));
+  CHECK(area[0]
+        == Approx(sector(0.2, edges[2]) - sector(0.1, edges[0])).epsilon(1e-9));
+  CHECK(d.extends(0) == std::array{true, true});
+  CHECK(d.extends(1) == std::array{true, false});
+  CHECK(d.extends(3) == std::array{false, true});
+
+  scene.mesh.file = "missing.msh";
+  CHECK_THROWS_WITH(mesh::obtain_grid(MPI_COMM_WORLD, scene),
+                    Catch::Matchers::ContainsSubstring("no such file"));
 }
 
 TEST_CASE("the moved mesh can be written into the output's geometry",

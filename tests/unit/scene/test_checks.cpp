@@ -65,10 +65,17 @@ TEST_CASE("checks: a roller blocks the normal of its side only", "[scene]")
         == "stage.pull.boundary.left.velocity_x: the boundary is a roller "
            "too\n");
 
-  // A slanted side blocks a mixture of both directions.
+  // A slanted side would block a mixture of both directions.
   scene = block();
   scene.mesh.shape = "quadrilateral";
   scene.mesh.corners = {{{0, 0}, {2, 0}, {2, 1}, {0.5, 1}}};
+  CHECK(complaints(scene)
+        == "stage.pull.boundary.left.roller: the boundary is slanted or "
+           "curved; a roller needs one that is straight along x or y\n");
+  // Level by its places, whatever the side is called.
+  scene.mesh.corners = {{{1, 0}, {1, 1}, {0, 1}, {0, 0}}};
+  scene.stage[0].boundary["left"].displacement_x = TimeSeries{{}, {0}};
+  CHECK(complaints(scene) == "");
   scene.stage[0].boundary["left"].displacement_y = TimeSeries{{}, {0}};
   CHECK(complaints(scene)
         == "stage.pull.boundary.left.displacement_y: the boundary is a roller "

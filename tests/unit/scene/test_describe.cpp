@@ -87,11 +87,28 @@ points = 7
 arrows = true
 at = 1.5
 )";
+
+const std::string from_gmsh = R"(
+[mesh]
+shape = "gmsh"
+file = "part.geo"
+refine = 2
+[material.m]
+law = "elastic"
+E = 1
+nu = 0
+[[stage]]
+name = "only"
+duration = 2
+step = 0.5
+[stage.boundary.hole]
+pressure = 1
+)";
 } // namespace
 
 TEST_CASE("describe: reading the description gives the same scene", "[scene]")
 {
-  std::vector<std::string> texts = {rich};
+  std::vector<std::string> texts = {rich, from_gmsh};
   for (const char* name : {"piercing", "rotating_pulse", "cook_membrane"})
   {
     const FileText file = load(fs::path(DEMOS) / name / "scene.toml");

@@ -97,7 +97,7 @@ std::array<double, 2> Body::mismatch() const
 bool Body::evaluate(std::span<const double> z)
 {
   std::string why;
-  return _parts->element->evaluate(state(), z, why) < 0;
+  return _parts->element->evaluate(state(), z, _parts->constants, why) < 0;
 }
 
 std::array<double, 9> Body::residual(int c, std::span<const double> z) const
