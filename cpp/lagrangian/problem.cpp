@@ -2,6 +2,7 @@
 #include "problem.h"
 
 #include "mesh/corners.h"
+#include "output/archive.h"
 #include <algorithm>
 #include <cmath>
 #include <dolfinx/common/MPI.h>
@@ -322,6 +323,14 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
   _guess_dt = t1 - t0;
   std::copy_n(_constants.g, 2, _gravity.begin());
   return true;
+}
+
+void Problem::keep(output::Archive& archive)
+{
+  archive("lagrangian/guess_dt", _guess_dt);
+  archive("lagrangian/gravity", _gravity);
+  if (_guess_dt > 0)
+    archive("lagrangian/motion", Entity::node, _motion);
 }
 
 std::vector<std::array<double, 2>> Problem::reactions() const

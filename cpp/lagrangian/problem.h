@@ -11,6 +11,11 @@
 #include <petscsnes.h>
 #include <string>
 
+namespace mmale::output
+{
+class Archive;
+}
+
 /// Equilibrium at the end of a step, by PETSc SNES (METHOD.md, step 1).
 namespace mmale::lagrangian
 {
@@ -76,6 +81,9 @@ public:
   std::span<const double> motion() const { return _motion; }
 
   const Element& element() const { return *_element; }
+
+  /// What steers the steps to come, besides the state; after `set_stage`.
+  void keep(output::Archive& archive);
 
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);

@@ -322,6 +322,9 @@ struct Chart
 struct Output
 {
   double fields_every = 0; ///< [s]; 0: start, end, and the pictures' times
+  /// Wall time from checkpoint to checkpoint [s]; 0: only when the run ends.
+  /// Doubled: half their cost, twice as much to do again after a crash.
+  double checkpoint_every = 60;
   std::map<std::string, Curve> curve;
   std::map<std::string, Line> line;
   std::map<std::string, Chart> chart;

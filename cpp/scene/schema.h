@@ -444,6 +444,10 @@ void keys(V& v, Output& o)
      "Time between outputs of fields; 0 means start, end and pictures.",
      at_least(0)},
     o.fields_every);
+  v({"checkpoint_every", "s",
+     "Wall time between checkpoints; 0 means only when the run ends.",
+     at_least(0)},
+    o.checkpoint_every);
   v({"curve", "", "Columns of curves.csv, by name."}, o.curve);
   v({"line", "", "Values along straight lines, by name."}, o.line);
   v({"chart", "", "Curves in one picture, by name."}, o.chart);
