@@ -19,15 +19,19 @@ double sum(MPI_Comm comm, double x)
   return x;
 }
 
-/// Boundaries that some stage holds or loads.
+/// Boundaries that some stage holds or loads, or whose curve is asked for.
 std::vector<int> watched(const Simulation& sim)
 {
   std::vector<int> out;
   for (std::size_t b = 0; b < sim.domain.boundary_names.size(); ++b)
-    for (const auto& stage : sim.scene.stage)
-      if (stage.boundary.contains(sim.domain.boundary_names[b])
-          and std::ranges::find(out, static_cast<int>(b)) == out.end())
-        out.push_back(static_cast<int>(b));
+  {
+    const auto& name = sim.domain.boundary_names[b];
+    if (std::ranges::any_of(sim.scene.stage, [&](const auto& stage)
+                            { return stage.boundary.contains(name); })
+        or std::ranges::any_of(sim.scene.output.curve, [&](const auto& curve)
+                               { return curve.second.boundary == name; }))
+      out.push_back(static_cast<int>(b));
+  }
   return out;
 }
 } // namespace

@@ -233,6 +233,8 @@ def dress_plane(ax, grid, picture, plan, over_colours):
     ax.set_xlabel("r [m]" if plan["axisymmetric"] else "x [m]")
     ax.set_ylabel("z [m]" if plan["axisymmetric"] else "y [m]")
     ax.locator_params(nbins=6)
+    if size[0] < 0.4 * size[1]:  # numbers need room beside each other
+        ax.locator_params(axis="x", nbins=2)
     if picture["arrows"]:
         draw_arrows(ax, grid, picture["arrows"], over_colours)
 
