@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "kernel.h"
 
+#include "compat.h"
 #include "strain.h"
 #include <algorithm>
 #include <array>
@@ -99,8 +100,8 @@ void Kernel::operator()(std::span<double> A, const CellInput& input,
   std::array<double, sizeof(Constants) / sizeof(double)> c_packed;
   pack(w_packed.data(), input, _coefficients);
   pack(c_packed.data(), c, _constants);
-  for (Function f : _functions)
-    f(A.data(), w_packed.data(), c_packed.data(), x, &facet, nullptr);
+  for (const auto f : _functions)
+    compat::call(f, A.data(), w_packed.data(), c_packed.data(), x, &facet);
 }
 
 void mid_gradient(bool axisymmetric, const double* w, const double* x,
@@ -109,6 +110,6 @@ void mid_gradient(bool axisymmetric, const double* w, const double* x,
   std::fill_n(G, 5, 0.0);
   const ufcx_expression* e =
       axisymmetric ? expression_strain_1 : expression_strain_0;
-  e->tabulate_tensor_float64(G, w, nullptr, x, nullptr, nullptr);
+  compat::call(e->tabulate_tensor_float64, G, w, nullptr, x, nullptr);
 }
 } // namespace mmale::lagrangian

@@ -3,10 +3,8 @@
 
 #include <span>
 #include <string_view>
+#include <ufcx.h>
 #include <vector>
-
-struct ufcx_form;
-struct ufcx_expression;
 
 /// FFCx kernels, called with their coefficients found by name.
 ///
@@ -69,9 +67,7 @@ private:
     std::size_t offset; ///< bytes from the start of the struct
     int size;           ///< doubles
   };
-  using Function = void (*)(double*, const double*, const double*,
-                            const double*, const int*, const unsigned char*);
-  std::vector<Function> _functions;
+  std::vector<decltype(ufcx_integral::tabulate_tensor_float64)> _functions;
   std::vector<Part> _coefficients, _constants;
   int _w_size = 0, _c_size = 0;
 };

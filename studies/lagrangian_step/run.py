@@ -246,9 +246,7 @@ def draw(rows):
     left.set_xlabel("processor seconds a converged step (dark: factorise and solve)")
     left.set_title("36 080 triangles", fontsize=10)
 
-    reference = float(
-        next(r for r in rows if r["kind"] == "reference")["p_sy at 2e-4"]
-    )
+    reference = float(next(r for r in rows if r["kind"] == "reference")["p_sy at 2e-4"])
     groups = {
         "choice": ("the solver, uniform", 0),
         "mesh": ("the solver, uniform", 0),
