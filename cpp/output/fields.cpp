@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "output/fields.h"
 
+#include "compat.h"
 #include "output/on_root.h"
-#include "output/p1_space.h"
 #include "output/summary.h"
 #include <algorithm>
 #include <array>
@@ -48,8 +48,8 @@ std::shared_ptr<Function> make_function(std::shared_ptr<Mesh> mesh,
     throw std::runtime_error("field \"" + field.name + "\" has "
                              + std::to_string(field.components)
                              + " components; 1, 2 and 4 can be written");
-  const auto space = std::make_shared<const Space>(
-      lagrange_space(mesh, field.location == Location::nodal ? 1 : 0, shape));
+  const auto space = std::make_shared<const Space>(compat::lagrange_space(
+      mesh, field.location == Location::nodal ? 1 : 0, shape));
   auto function = std::make_shared<Function>(space);
   function->name = field.name;
   return function;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "compat.h"
 #include "output/fields.h"
 #include "output/on_root.h"
-#include "output/p1_space.h"
 #include "output/probe.h"
 #include "output/versions.h"
 
@@ -47,7 +47,7 @@ std::shared_ptr<Mesh> rectangle(std::int64_t n = 6)
 /// Coordinates of the P1 dofs, shape (local nodes, 3) [m].
 std::vector<double> node_coordinates(std::shared_ptr<Mesh> mesh)
 {
-  return lagrange_space(mesh, 1).tabulate_dof_coordinates(false);
+  return mmale::compat::lagrange_space(mesh, 1).tabulate_dof_coordinates(false);
 }
 
 /// Middles of the local cells, shape (local cells, 2) [m].
