@@ -68,6 +68,8 @@ double Element::shear_modulus() const
 
 bool Element::symmetric() const
 {
+  if (_options.element == scene::Element::constant_strain)
+    return false; // its nodal pressure only listens
   // the bubble's plastic flow enters the volume equation alone
   return std::visit(
       [this](const auto& l)

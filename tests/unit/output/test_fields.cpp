@@ -47,7 +47,7 @@ std::shared_ptr<Mesh> rectangle(std::int64_t n = 6)
 /// Coordinates of the P1 dofs, shape (local nodes, 3) [m].
 std::vector<double> node_coordinates(std::shared_ptr<Mesh> mesh)
 {
-  return compat::lagrange_space(mesh, 1).tabulate_dof_coordinates(false);
+  return mmale::compat::lagrange_space(mesh, 1).tabulate_dof_coordinates(false);
 }
 
 /// Middles of the local cells, shape (local cells, 2) [m].
