@@ -34,6 +34,8 @@ double Element::bulk_modulus() const
 
 bool Element::symmetric() const
 {
+  if (_options.element == scene::Element::constant_strain)
+    return false; // its nodal pressure only listens
   // the mean layout's plastic bubble enters the volume equation alone, and the
   // nodes' acceleration the bubble's
   const bool flows =
