@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "environment.h"
+#include <csignal>
 #include <dolfinx/common/log.h>
 #include <petscsys.h>
 #include <spdlog/spdlog.h>
@@ -10,6 +11,8 @@ namespace mmale
 Environment::Environment(std::string program, std::vector<std::string> options)
     : _words(std::move(options))
 {
+  // A file that may not grow is an error of the write, not the end of us.
+  std::signal(SIGXFSZ, SIG_IGN);
   _words.insert(_words.begin(), std::move(program));
   for (std::string& word : _words)
     _arguments.push_back(word.data());

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
@@ -36,8 +37,8 @@ enum Exit
 
 constexpr const char* exit_help =
     "Exit code: 0 all runs completed; 1 mistake in scene or command line;\n"
-    "2 failure of the program; 3 a run stopped early, its last state is "
-    "saved;\n4 completed, but a check of reference.toml does not hold.\n"
+    "2 failure of the program; 3 a run stopped early, --resume goes on;\n4 "
+    "completed, but a check of reference.toml does not hold.\n"
     "Words after -- go to PETSc.";
 
 /// The words of the command line.
@@ -48,6 +49,7 @@ struct Arguments
   fs::path results;
   bool quiet = false;
   bool keys = false;
+  bool resume = false;
 };
 
 /// A run to be made: what differs between members, its scene, and its mesh if
@@ -56,7 +58,9 @@ struct Job
 {
   scene::Member member;
   scene::Scene scene;
-  std::shared_ptr<const mesh::Grid> grid;
+  std::string described = {}; ///< the scene as understood
+  Resumption begin = {};
+  std::shared_ptr<const mesh::Grid> grid = nullptr;
 };
 
 /// Meshes from files, each read once: members of a sweep may share them.
@@ -133,7 +137,8 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
         scene::read(file.text, given.scene.string(), member.overrides,
                     libraries(), read_mesh);
     std::ranges::copy(reading.complaints, std::back_inserter(complaints));
-    Job job = {member, std::move(reading.scene), nullptr};
+    Job job = {.member = member, .scene = std::move(reading.scene)};
+    job.described = scene::describe(job.scene);
     if (job.scene.mesh.shape == "gmsh" and complaints.empty())
       job.grid = meshes ? meshes->of(job.scene).grid
                         : std::make_shared<const mesh::Grid>();
@@ -171,7 +176,9 @@ Exit run_one(MPI_Comm comm, const Job& job, const RunOptions& options,
 {
   try
   {
-    const Result result = run(comm, job.scene, options);
+    const Result result = job.begin.way == Resumption::Way::completed
+                              ? job.begin.result
+                              : run(comm, job.scene, options);
     row.interrupted = result.interrupted;
     row.outcome = result.outcome;
     row.last = result.last;
@@ -213,11 +220,15 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
                 << job.member.folder << std::endl;
     scene::Row row = {job.member.swept, "", {}};
     const fs::path folder = job.member.folder;
-    const std::string scene = scene::describe(job.scene);
+    if (rank == 0 and job.begin.way == Resumption::Way::completed)
+      std::cout << "mmale: " << (results / folder).string()
+                << ": this run is completed, nothing is left to do"
+                << std::endl;
     ends.insert(run_one(comm, job,
                         {folder.empty() ? results : results / folder,
-                         scene == reference.scene ? reference.file : "", scene,
-                         given.quiet, job.grid},
+                         job.described == reference.scene ? reference.file : "",
+                         job.described, given.quiet,
+                         job.begin.way == Resumption::Way::resume, job.grid},
                         row));
     const bool interrupted = row.interrupted;
     rows.push_back(std::move(row));
@@ -235,6 +246,40 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
     if (ends.contains(end))
       return end;
   return good;
+}
+
+/// What --resume finds for each run; on rank 0.
+void look_for_checkpoints(std::vector<Job>& jobs, const fs::path& results,
+                          std::vector<scene::Complaint>& complaints)
+{
+  bool any = false;
+  for (Job& job : jobs)
+  {
+    const fs::path folder = job.member.folder;
+    job.begin = look_for_checkpoint(folder.empty() ? results : results / folder,
+                                    job.scene, job.described);
+    any = any or job.begin.way != Resumption::Way::start;
+    for (const auto& line : job.begin.complaints)
+      complaints.push_back({"", line, {}});
+  }
+  // Of a sweep's runs some may not have begun; with none there is a mistake.
+  if (not any)
+    complaints.push_back(
+        {"", results.string() + ": there is no checkpoint to resume from", {}});
+}
+
+/// What rank 0 has found, on all ranks.
+void agree_on_beginnings(MPI_Comm comm, std::vector<Job>& jobs)
+{
+  for (Job& job : jobs)
+  {
+    int way[2] = {static_cast<int>(job.begin.way),
+                  job.begin.result.checks_hold};
+    MPI_Bcast(way, 2, MPI_INT, 0, comm);
+    job.begin.way = static_cast<Resumption::Way>(way[0]);
+    job.begin.result.completed = true;
+    job.begin.result.checks_hold = way[1] != 0;
+  }
 }
 
 /// `mmale run`: rank 0 reads, all ranks agree before anything starts.
@@ -261,6 +306,8 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
     const fs::path beside = given.scene.parent_path() / "reference.toml";
     if (fs::exists(beside, error))
       reference = beside.string();
+    if (given.resume and complaints.empty())
+      look_for_checkpoints(jobs, results, complaints);
     if (not complaints.empty())
       print(complaints);
   }
@@ -272,6 +319,7 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
   file.text = broadcast(comm, file.text);
   if (rank > 0)
     jobs = read_jobs(file, given, nullptr, complaints);
+  agree_on_beginnings(comm, jobs);
   // A scene that only its changes make good has no results to compare with.
   const scene::Reading as_written =
       scene::read(file.text, given.scene.string(), {}, libraries());
@@ -330,6 +378,8 @@ void define(CLI::App& app, Arguments& given)
   run->add_option("--results", given.results,
                   "where to write; default results/<name of the scene>")
       ->type_name("DIR");
+  run->add_flag("--resume", given.resume,
+                "Go on from the checkpoint in the folder of the results");
   run->add_flag("--quiet", given.quiet, "No progress on the screen");
   run->footer(exit_help);
   CLI::App* check = app.add_subcommand(

@@ -343,6 +343,26 @@ output::Ledger Monitor::ledger() const
   return out;
 }
 
+void Monitor::keep(output::Archive& archive)
+{
+  archive("monitor/points", _points);
+  archive("monitor/displacement", _displacement);
+  archive("monitor/moved", _moved);
+  archive("monitor/reactions", _reactions);
+  archive("monitor/volume", _volume);
+  archive("monitor/lagrangian_volume", _lagrangian_volume);
+  std::vector<double> start;
+  for (const auto& entry : _start)
+    start.push_back(entry.start);
+  archive("monitor/start", start);
+  for (std::size_t i = 0; i < _start.size(); ++i)
+    _start[i].start = start.at(i);
+  if (not archive.loading() or _points.empty())
+    return;
+  _sim.domain.put_geometry(_sim.state.x);
+  _spots = _probe.locate(_points);
+}
+
 std::vector<output::NamedField> Monitor::fields()
 {
   using output::Location;

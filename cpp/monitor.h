@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "output/archive.h"
 #include "output/fields.h"
 #include "output/ledger.h"
 #include "output/probe.h"
@@ -31,6 +32,9 @@ public:
 
   /// Fields as they stand; spans live until the next call.
   std::vector<output::NamedField> fields();
+
+  /// What was added up so far; the state has been kept before. Collective.
+  void keep(output::Archive& archive);
 
 private:
   struct Column

@@ -2,12 +2,13 @@
 #include "run.h"
 
 #include "monitor.h"
+#include "output/archive.h"
+#include "output/checkpoint.h"
 #include "output/checks.h"
 #include "output/curves.h"
 #include "output/on_root.h"
 #include "output/pictures.h"
 #include "output/progress.h"
-#include "output/state_file.h"
 #include "output/summary.h"
 #include "output/versions.h"
 #include "simulation.h"
@@ -32,12 +33,20 @@ public:
   Result go();
 
 private:
-  bool stage(const scene::Stage& stage);
+  void enter_stage();
+  bool stage();
+  bool attempt();
   void record(double step, const StepLog& log);
   void write_fields();
   std::vector<double> marks(double begin, double duration) const;
-  std::string explain(const StepControl& control, const StepLog& log) const;
-  void save_state();
+  std::string explain(const StepLog& log) const;
+  bool checkpoint_due() const;
+  void save();
+  void resume();
+  void keep(output::Archive& archive);
+  void keep_books(output::Archive& archive);
+  std::vector<output::Timing> timings() const;
+  void check();
   void finish();
 
   MPI_Comm _comm;
@@ -47,13 +56,19 @@ private:
   double _end = 0;
   Simulation _sim;
   Monitor _monitor;
+  std::optional<output::Archive> _loaded; ///< what is resumed; until it is
   output::Curves _curves;
   output::References _references;
   output::Fields _fields;
   output::Probe _probe;
   output::Progress _progress;
   output::Summary _summary;
-  double _fields_due = 0;
+  output::CheckpointHeader _header;
+  int _stage = 0;             ///< the present one
+  double _begin = 0;          ///< of the present stage [s]
+  std::vector<double> _marks; ///< of the present stage
+  std::optional<StepControl> _control;
+  double _checkpoint_due = 0; ///< wall time [s]
   int _outputs = 0;
   bool _interrupted = false;
   StopSignal _stop;
@@ -74,6 +89,82 @@ output::Curves make_curves(bool root, const RunOptions& options,
               : output::Curves(names);
 }
 
+/// What the timers have seen, in a run that goes on.
+void keep(output::Archive& archive, output::Clock& clock,
+          std::vector<output::Timing> timings)
+{
+  std::vector<std::string> names;
+  std::vector<std::array<double, 2>> times;
+  for (const auto& t : timings)
+  {
+    names.push_back(t.name);
+    times.push_back({t.seconds, static_cast<double>(t.calls)});
+  }
+  std::string text = output::lines(names);
+  double wall = clock.wall();
+  archive("timers/names", text);
+  archive("timers/seconds_calls", times);
+  archive("timers/wall", wall);
+  if (not archive.loading())
+    return;
+  timings.clear();
+  names = output::from_lines(text);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    timings.push_back({.name = names[i],
+                       .seconds = times.at(i)[0],
+                       .calls = static_cast<std::int64_t>(times[i][1])});
+  clock.add(timings, wall);
+}
+
+/// The rows of curves.csv; a file of them is written anew.
+void keep(output::Archive& archive, output::Curves& curves)
+{
+  const std::size_t width = curves.names().size();
+  std::string names = output::lines(curves.names());
+  archive("curves/names", names);
+  std::vector<double> rows;
+  for (std::size_t r = 0; r < curves.rows(); ++r)
+    for (const auto& name : curves.names())
+      rows.push_back(curves.column(name)[r]);
+  archive("curves/rows", rows, static_cast<int>(width));
+  if (not archive.loading())
+    return;
+  if (names != output::lines(curves.names()))
+    throw std::runtime_error("the checkpoint has other curves");
+  for (std::size_t r = 0; r < rows.size(); r += width)
+    curves.add(std::span(rows).subspan(r, width));
+}
+
+std::optional<output::Archive> load(const mesh::Domain& domain,
+                                    const RunOptions& options)
+{
+  if (not options.resume)
+    return std::nullopt;
+  return std::optional<output::Archive>(
+      std::in_place, domain, options.results / output::checkpoint_name);
+}
+
+/// Outputs of fields that a checkpoint knows of.
+void keep(output::Archive& archive, std::vector<output::FieldOutput>& outputs)
+{
+  std::vector<std::array<double, 2>> rows;
+  for (const auto& o : outputs)
+    rows.push_back({o.time, static_cast<double>(o.begin)});
+  archive("fields", rows);
+  outputs.clear();
+  for (const auto& [time, begin] : rows)
+    outputs.push_back({time, static_cast<std::int64_t>(begin)});
+}
+
+std::vector<output::FieldOutput>
+earlier_fields(std::optional<output::Archive>& loaded)
+{
+  std::vector<output::FieldOutput> out;
+  if (loaded)
+    keep(*loaded, out);
+  return out;
+}
+
 std::vector<std::string> names(const output::Ledger& ledger)
 {
   std::vector<std::string> out;
@@ -86,8 +177,10 @@ Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
     : _comm(comm), _scene(scene), _options(options),
       _root(dolfinx::MPI::rank(comm) == 0), _end(total_duration(scene)),
       _sim(comm, scene, options.grid.get()), _monitor(_sim),
+      _loaded(load(_sim.domain, options)),
       _curves(make_curves(_root, options, _monitor.names())),
-      _fields(_sim.domain.mesh, options.results), _probe(_sim.domain.mesh),
+      _fields(_sim.domain.mesh, options.results, earlier_fields(_loaded)),
+      _probe(_sim.domain.mesh),
       _progress(0, _end, output::Progress::style(options.quiet or not _root))
 {
   if (not options.reference.empty())
@@ -100,6 +193,8 @@ Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
       all += (all.empty() ? "" : "\n") + c;
     throw std::runtime_error(all);
   }
+  _header.version = output::versions().at("mmale");
+  _header.scene = options.scene_as_understood;
   _summary.title = scene.title;
   _summary.ranks = dolfinx::MPI::size(comm);
   _summary.versions = output::versions();
@@ -146,88 +241,177 @@ void Run::record(double step, const StepLog& log)
     _curves.add(row);
 }
 
-void Run::save_state()
+/// All that steers the run to come. `enter_stage` has been called.
+void Run::keep(output::Archive& archive)
 {
-  output::write_state(_options.results / "state.h5", _sim.domain, _sim.state);
+  archive("run/stage_begin", _begin);
+  _control->keep(archive);
+  archive("state/time", _sim.state.time);
+  Work& work = _sim.state.work;
+  archive("state/internal_work", work.internal);
+  archive("state/external_work", work.external);
+  archive("state/remap_work", work.remap);
+  for_each_field(_sim.state,
+                 [&](const std::string& name, Entity entity, auto& values)
+                 { archive("state/" + name, entity, values); });
+  if (_sim.problem)
+    _sim.problem->keep(archive);
+  if (_sim.remap)
+    _sim.remap->keep(archive);
+  _monitor.keep(archive);
+  keep_books(archive);
 }
 
-std::string Run::explain(const StepControl& control, const StepLog& log) const
+/// What the run has told so far.
+void Run::keep_books(output::Archive& archive)
+{
+  archive("run/outputs", _outputs);
+  archive("summary/steps", _summary.steps);
+  archive("summary/rejected", _summary.rejected);
+  archive("summary/iterations", _summary.iterations);
+  archive("summary/remaps", _summary.remaps);
+  archive("summary/remaps_left_out", _summary.remaps_left_out);
+  archive("summary/remap_trouble", _summary.remap_trouble);
+  archive("summary/resumed", _summary.resumed);
+  mmale::keep(archive, _curves);
+  mmale::keep(archive, _sim.clock, timings());
+}
+
+bool Run::checkpoint_due() const
+{
+  int due = _sim.clock.wall() >= _checkpoint_due;
+  MPI_Bcast(&due, 1, MPI_INT, 0, _comm);
+  return due != 0 and _scene.output.checkpoint_every > 0;
+}
+
+void Run::save()
+{
+  const auto outer = _sim.clock.scope("5 output");
+  const auto scope = _sim.clock.scope("5a checkpoint");
+  const double t0 = _sim.clock.wall();
+  output::Archive archive(_sim.domain);
+  _header.standing.stage = _stage;
+  _header.time = _sim.state.time;
+  _header.keep(archive);
+  auto outputs = _fields.outputs();
+  mmale::keep(archive, outputs);
+  keep(archive);
+  archive.write(_options.results / output::checkpoint_name);
+  const double t1 = _sim.clock.wall();
+  _checkpoint_due =
+      t1 + output::checkpoint_wait(_scene.output.checkpoint_every, t1 - t0);
+}
+
+/// Take everything from the checkpoint.
+void Run::resume()
+{
+  (*_loaded)("run/stage", _stage);
+  (*_loaded)("run/stage_begin", _begin);
+  enter_stage();
+  keep(*_loaded);
+  _loaded.reset();
+  ++_summary.resumed;
+  _progress.resume({.time = _sim.state.time, .number = _summary.steps});
+  std::ostringstream words;
+  words << "resumed at t " << _sim.state.time << " s";
+  _progress.note(words.str());
+}
+
+std::string Run::explain(const StepLog& log) const
 {
   const auto& why = log.newton.failure;
   std::ostringstream out;
   out << "stopped at the step floor: t = " << _sim.state.time << " s, step "
-      << control.step() << " s is below " << control.floor() << " s; "
+      << _control->step() << " s is below " << _control->floor() << " s; "
       << why.cause << ", cell " << why.cell << " at (" << why.place[0] << ", "
       << why.place[1] << ") m, material '" << _scene.material.begin()->first
       << "'";
   return out.str();
 }
 
-/// Steps of one stage; false when the run has to end.
-bool Run::stage(const scene::Stage& stage)
+/// The present stage, from its start or from where it is resumed.
+void Run::enter_stage()
 {
-  const double begin = _sim.state.time;
-  const auto outputs = marks(begin, stage.duration);
-  StepControl control(stage, outputs);
+  const scene::Stage& stage = _scene.stage.at(_stage);
+  _marks = marks(_begin, stage.duration);
+  _control.emplace(stage, _marks);
   if (_sim.problem)
-  {
     _sim.problem->set_stage(stage);
-    _sim.problem->begin_stage(_sim.state);
-  }
-  while (not control.finished())
+}
+
+/// One step; false when it fails at the floor.
+bool Run::attempt()
+{
+  StepLog log;
+  const double t0 = _control->time(), t1 = _control->next();
+  const int number = static_cast<int>(_summary.steps) + 1;
+  const bool taken = step(_sim, _scene.stage[_stage], t0, t1, number, log);
+  _summary.iterations += log.newton.iterations;
+  if (not taken)
   {
-    StepLog log;
-    const double t0 = control.time(), t1 = control.next();
-    const int number = static_cast<int>(_summary.steps) + 1;
-    const bool taken = step(_sim, stage, t0, t1, number, log);
-    _summary.iterations += log.newton.iterations;
-    if (not taken)
-    {
-      ++_summary.rejected;
-      if (control.failed())
-        continue;
-      _summary.outcome = explain(control, log);
+    ++_summary.rejected;
+    if (_control->failed())
+      return true;
+    _summary.outcome = explain(log);
+    return false;
+  }
+  if (not log.remap.trouble.empty())
+  {
+    _progress.note("remap left out: " + log.remap.trouble);
+    ++_summary.remaps_left_out;
+    _summary.remap_trouble = log.remap.trouble;
+  }
+  _summary.remaps += log.remap.done;
+  ++_summary.steps;
+  _control->accepted(static_cast<int>(log.newton.residuals.size()) - 1);
+  _sim.state.time = _begin + _control->time();
+  _monitor.after_step(t1 - t0);
+  record(t1 - t0, log);
+  _progress.show(
+      {_sim.state.time, t1 - t0, _summary.steps, log.newton.iterations});
+  if (std::ranges::find(_marks, _control->time()) != _marks.end())
+    write_fields();
+  return true;
+}
+
+/// Steps of the present stage; false when the run has to end.
+bool Run::stage()
+{
+  if (_control->time() == 0 and _sim.problem)
+    _sim.problem->begin_stage(_sim.state);
+  while (not _control->finished())
+  {
+    const auto steps = _summary.steps;
+    if (not attempt())
       return false;
-    }
-    if (not log.remap.trouble.empty())
-    {
-      _progress.note("remap left out: " + log.remap.trouble);
-      ++_summary.remaps_left_out;
-      _summary.remap_trouble = log.remap.trouble;
-    }
-    _summary.remaps += log.remap.done;
-    ++_summary.steps;
-    control.accepted(static_cast<int>(log.newton.residuals.size()) - 1);
-    _sim.state.time = begin + control.time();
-    _monitor.after_step(t1 - t0);
-    record(t1 - t0, log);
-    _progress.show(
-        {_sim.state.time, t1 - t0, _summary.steps, log.newton.iterations});
-    if (std::ranges::find(outputs, control.time()) != outputs.end())
-      write_fields();
+    if (_summary.steps == steps)
+      continue;
     if (_stop.requested(_comm))
     {
       _summary.outcome = "stopped by a signal";
       _interrupted = true;
       return false;
     }
+    if (checkpoint_due())
+      save();
   }
   return true;
 }
 
+std::vector<output::Timing> Run::timings() const
+{
+  return _sim.clock.timings(_summary.cells,
+                            [this](std::span<double> v)
+                            {
+                              MPI_Allreduce(MPI_IN_PLACE, v.data(),
+                                            static_cast<int>(v.size()),
+                                            MPI_DOUBLE, MPI_MAX, _comm);
+                            });
+}
+
 void Run::finish()
 {
-  _summary.ledger = _monitor.ledger();
-  _summary.time = _sim.state.time;
-  _summary.checks =
-      output::evaluate(_references.entries, _curves, _summary.ledger);
-  _summary.timers = _sim.clock.timings(
-      _summary.cells,
-      [this](std::span<double> v)
-      {
-        MPI_Allreduce(MPI_IN_PLACE, v.data(), static_cast<int>(v.size()),
-                      MPI_DOUBLE, MPI_MAX, _comm);
-      });
+  _summary.timers = timings();
   _summary.wall_seconds = _sim.clock.wall();
   output::on_root(_comm,
                   [&] { write(_options.results / "summary.json", _summary); });
@@ -244,19 +428,46 @@ void Run::finish()
     spdlog::warn("no pictures: {}", trouble);
 }
 
+/// Hold the run against what is known of it.
+void Run::check()
+{
+  _summary.ledger = _monitor.ledger();
+  _summary.time = _sim.state.time;
+  _summary.checks =
+      output::evaluate(_references.entries, _curves, _summary.ledger);
+}
+
 Result Run::go()
 {
-  record(0, {});
-  write_fields();
-  bool completed = true;
-  for (const auto& s : _scene.stage)
-    if (completed = stage(s); not completed)
-      break;
+  if (_loaded)
+    resume();
+  else
+  {
+    record(0, {});
+    write_fields();
+    enter_stage();
+  }
+  _checkpoint_due = _sim.clock.wall() + _scene.output.checkpoint_every;
+  bool completed = stage();
+  while (completed and _stage + 1 < static_cast<int>(_scene.stage.size()))
+  {
+    ++_stage;
+    _begin = _sim.state.time;
+    enter_stage();
+    completed = stage();
+  }
   if (completed)
     _summary.outcome = "completed";
-  else
-    save_state();
-  write_fields();
+  // Fields of the end belong to a run that is completed, and are no part of
+  // one that goes on.
+  if (completed)
+    write_fields();
+  check();
+  _header.completed = completed;
+  _header.checks_hold = output::all_hold(_summary.checks);
+  save();
+  if (not completed)
+    write_fields();
   finish();
   Result result;
   result.outcome = _summary.outcome;
@@ -267,12 +478,32 @@ Result Run::go()
     result.last[name] = _curves.column(name).back();
   return result;
 }
+/// A run that starts leaves nothing of an earlier one that it could be mixed
+/// up with.
+void clear(const RunOptions& options)
+{
+  const auto found = output::find_checkpoint(options.results);
+  if (found.there and not found.header.completed and found.trouble.empty())
+    std::cerr << "mmale: " << options.results.string()
+              << " holds a run that stopped at t = " << found.header.time
+              << " s; it starts afresh (--resume would have gone on)"
+              << std::endl;
+  const auto checkpoint = options.results / output::checkpoint_name;
+  std::filesystem::remove(checkpoint);
+  std::filesystem::remove(checkpoint.string() + ".part");
+  std::filesystem::remove_all(options.results / "lines");
+}
 } // namespace
 
 Result run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
 {
-  output::on_root(comm, [&]
-                  { std::filesystem::create_directories(options.results); });
+  output::on_root(comm,
+                  [&]
+                  {
+                    std::filesystem::create_directories(options.results);
+                    if (not options.resume)
+                      clear(options);
+                  });
   return Run(comm, scene, options).go();
 }
 } // namespace mmale

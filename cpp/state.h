@@ -41,4 +41,36 @@ struct State
                                  ///< rest, shape (n, 2) [N/m]
   Work work;
 };
+
+/// What an array has a row for.
+enum class Entity
+{
+  node,
+  cell
+};
+
+/// Names every array of a state once: what is not named here does not live
+/// through a checkpoint. Rows follow from the entity, the width from the size;
+/// arrays that the scene does not have are empty.
+///
+/// @tparam S     State or const State
+/// @param visit  called as visit(name, entity, array) for each array
+template <class S, class Visit>
+void for_each_field(S& state, Visit&& visit)
+{
+  visit("x", Entity::node, state.x);
+  visit("p", Entity::node, state.p);
+  visit("v", Entity::node, state.v);
+  visit("s", Entity::cell, state.s);
+  visit("P", Entity::cell, state.P);
+  visit("density", Entity::cell, state.density);
+  visit("history", Entity::cell, state.history);
+  visit("a", Entity::node, state.a);
+  visit("force", Entity::node, state.force);
+  visit("inner", Entity::node, state.inner);
+  visit("p_rate", Entity::node, state.p_rate);
+  visit("held_back", Entity::node, state.held_back);
+  for (auto& [name, values] : state.tracer)
+    visit("tracer_" + name, Entity::cell, values);
+}
 } // namespace mmale

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include <algorithm>
 #include <vector>
 
 namespace mmale
@@ -30,6 +31,16 @@ public:
 
   double step() const { return _step; }
   double floor() const { return _floor; }
+
+  /// Where the stage stands. What stopped at the floor tries it once more.
+  template <class Archive>
+  void keep(Archive& archive)
+  {
+    archive("run/time_in_stage", _time);
+    archive("run/next_step", _step);
+    if (archive.loading())
+      _step = std::max(_step, _floor);
+  }
 
 private:
   /// Iterations up to which a step counts as easy. More: larger steps, more

@@ -16,6 +16,7 @@ from mini import (
     B,
     V,
     W,
+    bubble_value,
     deviator,
     divergence,
     dx,
@@ -65,7 +66,8 @@ def bubble_points(axisymmetric, n):
     r = x[0] if axisymmetric else 1
     u, _, u_b = split(ufl.split(w))
     _, _, v_b = split(TestFunctions(W))
-    return rho * dot(a_0 + c_a * (u + u_b), v_b) * r * dx_points(n)
+    k = bubble_value(n)
+    return rho * dot(a_0 + c_a * (u + k * u_b), k * v_b) * r * dx_points(n)
 
 
 def damping(axisymmetric):

@@ -12,6 +12,7 @@ the step's bubble: ideally plastic points alone cannot carry any gradient of p.
 
 from mini import (
     W,
+    bubble_value,
     deviator,
     divergence,
     dx_points,
@@ -59,9 +60,10 @@ def residual(axisymmetric, n, laws):
     r = x[0] if axisymmetric else 1
     _, p, u_b = split(ufl.split(w))
     v, q, v_b = split(TestFunctions(W))
-    h = gradient(v + v_b, r, axisymmetric)
-    h_b, e_b = (gradient(z, r, axisymmetric) for z in (v_b, u_b))
-    momentum = inner(laws.s, h) - p * divergence(h) - rho * dot(g, v + v_b)
+    k = bubble_value(n)
+    h_b, e_b = (gradient(z, r, axisymmetric, k) for z in (v_b, u_b))
+    h = gradient(v, r, axisymmetric) + h_b
+    momentum = inner(laws.s, h) - p * divergence(h) - rho * dot(g, v + k * v_b)
     held = 2 * spring * mu * inner(deviator(strain(e_b)), strain(h_b))
     return (momentum + held + q * laws.excess) * r * dx_points(n)
 
@@ -71,7 +73,8 @@ def tangent(axisymmetric, n, laws):
     r = x[0] if axisymmetric else 1
     R = residual(axisymmetric, n, laws)
     du, dp, du_b = split(TrialFunctions(W))
-    dh = gradient(du + du_b, r, axisymmetric)
+    dh = gradient(du, r, axisymmetric)
+    dh += gradient(du_b, r, axisymmetric, bubble_value(n))
     return (
         derivative(R, w, TrialFunction(W))
         + derivative(R, laws.s, laws.ds_dh * dh + laws.ds_dp * dp)

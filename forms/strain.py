@@ -7,7 +7,7 @@ G = 2 (f - I)(f + I)^-1; its parts are (xx, xy, yx, yy, zz). The points of layou
 """
 
 import numpy as np
-from mini import W, gradient, points, split, x
+from mini import W, bubble_value, gradient, points, split, x
 from ufl import Coefficient
 import ufl
 
@@ -15,11 +15,19 @@ w = Coefficient(W)
 u, _, u_b = split(ufl.split(w))
 centroid = np.array([[1 / 3, 1 / 3]])
 
+
+def at_points(n, axisymmetric):
+    """Nodes and bubble together."""
+    r = x[0] if axisymmetric else 1
+    bubble = gradient(u_b, r, axisymmetric, bubble_value(n))
+    return gradient(u, r, axisymmetric) + bubble, points[n]
+
+
 expressions = [
     (gradient(u, 1, False), centroid),
     (gradient(u, x[0], True), centroid),
-    (gradient(u + u_b, 1, False), points[3]),
-    (gradient(u + u_b, x[0], True), points[3]),
-    (gradient(u + u_b, 1, False), points[6]),
-    (gradient(u + u_b, x[0], True), points[6]),
+    at_points(3, False),
+    at_points(3, True),
+    at_points(6, False),
+    at_points(6, True),
 ]

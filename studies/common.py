@@ -163,7 +163,7 @@ class Run:
         return float(self.curves["z_B"][-1])
 
 
-def run(scene, fields=False):
+def run(scene, fields=False, ranks=1):
     """One run of a scene in a folder that is gone afterwards."""
     program = os.environ.get("MMALE_PROGRAM")
     if not program:
@@ -174,6 +174,8 @@ def run(scene, fields=False):
         (folder / "scene.toml").write_text(text)
         words = [program, "run", str(folder / "scene.toml"), "--quiet"]
         words += ["--results", str(folder / "out")]
+        if ranks > 1:
+            words = ["mpirun", "-n", str(ranks)] + words
         # nothing is drawn: an empty program in the place of the draughtsman
         environment = os.environ | {"OMP_NUM_THREADS": "1", "MMALE_DRAW": os.devnull}
         with open(folder / "log", "w") as log:

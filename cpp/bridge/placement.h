@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/domain.h"
+#include "output/archive.h"
 #include "remap/smoothing/smooth.h"
 #include <span>
 #include <string>
@@ -51,6 +52,12 @@ public:
   /// @param[in] home  nodes after the last remap, shape (nodes, 2) [m]
   std::vector<double> start(std::span<const double> moved,
                             std::span<const double> home);
+
+  /// The last motion.
+  void keep(output::Archive& archive)
+  {
+    archive("remap/motion", Entity::node, _motion);
+  }
 
 private:
   /// A straight stretch of a boundary, with nodes between its ends.

@@ -2,6 +2,7 @@
 #include "remap_step.h"
 
 #include "mesh/corners.h"
+#include "output/archive.h"
 #include "placement.h"
 #include "point_mesh.h"
 #include "remap/quality/quality.h"
@@ -393,6 +394,18 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
   host.sum(std::span(&clipped, 1));
   log.clipped = static_cast<std::int64_t>(clipped);
   log.clipped_largest = largest;
+}
+
+void RemapStep::keep(output::Archive& archive)
+{
+  Impl& m = *_impl;
+  archive("remap/home", Entity::node, m.home);
+  if (m.placement)
+    m.placement->keep(archive);
+  archive("remap/cell_volume", m.ledger.cell_volume);
+  archive("remap/node_volume", m.ledger.node_volume);
+  archive("remap/cells", m.ledger.cells);
+  archive("remap/nodes", m.ledger.nodes);
 }
 
 void RemapStep::run(State& state, RemapLog& log)

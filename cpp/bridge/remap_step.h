@@ -17,6 +17,11 @@
 /// The only place that knows both: halos, constraints on nodes, which array
 /// travels how. Conserved: the integral of every field, but for what passes
 /// the boundary, which the ledger holds.
+namespace mmale::output
+{
+class Archive;
+}
+
 namespace mmale::bridge
 {
 /// What a remap did.
@@ -69,6 +74,9 @@ public:
   void run(State& state, RemapLog& log);
 
   Exchange exchange() const;
+
+  /// What steers the remaps to come, besides the state, and the ledger.
+  void keep(output::Archive& archive);
 
 private:
   struct Impl;

@@ -32,6 +32,18 @@ double Element::bulk_modulus() const
   return std::visit([](const auto& l) { return l.bulk_modulus(); }, _law);
 }
 
+bool Element::symmetric() const
+{
+  // the mean layout's plastic bubble enters the volume equation alone, and the
+  // nodes' acceleration the bubble's
+  const bool flows =
+      _options.layout == scene::Layout::mean and _options.plastic_bubble;
+  return not _newmark
+         and std::visit([flows](const auto& l)
+                        { return l.symmetric and not(l.yields and flows); },
+                        _law);
+}
+
 double Element::density() const
 {
   return std::visit([](const auto& l) { return l.density; }, _law);

@@ -78,6 +78,10 @@ public:
   /// measure for the forces left over [N2/m2 or N2/rad2].
   double force_squared(const State& state, int cell) const;
 
+  /// Whether the tangent is symmetric but for the geometry's share, which is of
+  /// the order of the step's strain and of stress over stiffness.
+  bool symmetric() const;
+
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
   double shear_modulus() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "kernel.h"
 
+#include "compat.h"
 #include "strain.h"
 #include <algorithm>
 #include <cstddef>
@@ -134,8 +135,8 @@ void BasicKernel<Input>::operator()(std::span<double> A, const Input& input,
   std::array<double, sizeof(Constants) / sizeof(double)> c_packed;
   pack(w_packed.data(), input, _coefficients);
   pack(c_packed.data(), c, _constants);
-  for (Function f : _functions)
-    f(A.data(), w_packed.data(), c_packed.data(), x, &facet, nullptr);
+  for (const auto f : _functions)
+    compat::call(f, A.data(), w_packed.data(), c_packed.data(), x, &facet);
 }
 
 template class BasicKernel<CellInput>;
@@ -161,8 +162,8 @@ void mid_gradient(bool axisymmetric, const double* w, const double* x,
                   double* G)
 {
   std::fill_n(G, 5 * n, 0.0);
-  strain<n>(axisymmetric)
-      .tabulate_tensor_float64(G, w, nullptr, x, nullptr, nullptr);
+  compat::call(strain<n>(axisymmetric).tabulate_tensor_float64, G, w, nullptr,
+               x, nullptr);
 }
 
 template <int n>

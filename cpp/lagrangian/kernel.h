@@ -4,10 +4,8 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <ufcx.h>
 #include <vector>
-
-struct ufcx_form;
-struct ufcx_expression;
 
 /// FFCx kernels, called with their coefficients found by name.
 ///
@@ -97,9 +95,7 @@ private:
     std::size_t offset; ///< bytes from the start of the struct
     int size;           ///< doubles
   };
-  using Function = void (*)(double*, const double*, const double*,
-                            const double*, const int*, const unsigned char*);
-  std::vector<Function> _functions;
+  std::vector<decltype(ufcx_integral::tabulate_tensor_float64)> _functions;
   std::vector<Part> _coefficients, _constants;
 };
 using Kernel = BasicKernel<CellInput>;

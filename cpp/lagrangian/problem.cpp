@@ -2,6 +2,7 @@
 #include "problem.h"
 
 #include "mesh/corners.h"
+#include "output/archive.h"
 #include <algorithm>
 #include <cmath>
 #include <dolfinx/common/MPI.h>
@@ -40,8 +41,6 @@ Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
   const double rho = _element->density(), G = _element->shear_modulus();
   _loads.set_impedance(std::sqrt(rho * (_element->bulk_modulus() + 4 * G / 3)),
                        std::sqrt(rho * G));
-  create_matrix();
-  create_solver();
 }
 
 Problem::~Problem()
@@ -50,6 +49,7 @@ Problem::~Problem()
   MatDestroy(&_J);
   VecDestroy(&_x);
   VecDestroy(&_r);
+  VecDestroy(&_unlifted);
 }
 
 void Problem::set_stage(const scene::Stage& stage)
@@ -62,6 +62,7 @@ void Problem::set_stage(const scene::Stage& stage)
   if (stage.dynamics)
     _newmark.emplace(_domain, _symmetry, stage.dynamics->resolved());
   _element->set_newmark(_newmark ? &*_newmark : nullptr);
+  choose_solver();
 }
 
 void Problem::unpack(Vec x)
@@ -117,6 +118,9 @@ void Problem::assemble_residual(double* r)
   auto force = _force.mutable_array();
   std::ranges::fill(force, 0.0);
   double size[3] = {0, 0, 0}; // squares: cell forces, strains, held increments
+  // strain of the pressure's last digits, as large as they may weigh
+  const double last_digits = 4 * std::numeric_limits<double>::epsilon()
+                             / (_element->bulk_modulus() * _options.tolerance);
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
     double R[9];
@@ -131,7 +135,11 @@ void Problem::assemble_residual(double* r)
     // and what the cell brought along: a step may end without stress
     size[0] += _element->force_squared(*_state, c);
     const double V = _element->volume(c) / 3;
-    size[1] += 3 * V * V * (1e-32 + _element->strain_squared(c));
+    double p = 0;
+    for (int n : nodes)
+      p += z[3 * n + 2] / 3;
+    const double lost = last_digits * p; // a body at rest has no other strain
+    size[1] += 3 * V * V * (1e-32 + lost * lost + _element->strain_squared(c));
   }
   _loads.add_residual(*_state, z, force);
   _force.scatter_rev(std::plus<double>());
@@ -145,10 +153,11 @@ void Problem::assemble_residual(double* r)
   }
 
   double norm[3] = {0, 0, 0};
+  const double weight = _newmark ? _newmark->weight() : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
   {
     const bool pressure = i % 3 == 2;
-    r[i] = force[i] / (pressure ? _length : _stress);
+    r[i] = pressure ? weight * force[i] / _length : force[i] / _stress;
     if (_holder[i] >= 0)
     {
       r[i] = z[i] - _increment[i];
@@ -228,6 +237,7 @@ void Problem::prepare(const State& state, double t0, double t1)
 /// What is held in this step: the stage's conditions, and contact.
 void Problem::hold()
 {
+  _held_anew = true;
   _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
@@ -265,7 +275,7 @@ bool Problem::newton(NewtonLog& log)
 {
   log.residuals.clear();
   log.failure = {};
-  SNESSetApplicationContext(_snes, &log);
+  _log = &log;
   _failed = false;
   _element->begin_step();
   SNESSolve(_snes, nullptr, _x);
@@ -320,6 +330,14 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
   _guess_dt = t1 - t0;
   std::copy_n(_constants.g, 2, _gravity.begin());
   return true;
+}
+
+void Problem::keep(output::Archive& archive)
+{
+  archive("lagrangian/guess_dt", _guess_dt);
+  archive("lagrangian/gravity", _gravity);
+  if (_guess_dt > 0)
+    archive("lagrangian/motion", Entity::node, _motion);
 }
 
 std::vector<std::array<double, 2>> Problem::reactions() const

@@ -11,6 +11,11 @@
 #include <petscsnes.h>
 #include <string>
 
+namespace mmale::output
+{
+class Archive;
+}
+
 /// Equilibrium at the end of a step, by PETSc SNES (METHOD.md, step 1).
 namespace mmale::lagrangian
 {
@@ -77,15 +82,28 @@ public:
 
   const Element& element() const { return *_element; }
 
+  /// What steers the steps to come, besides the state; after `set_stage`.
+  void keep(output::Archive& archive);
+
 private:
   static PetscErrorCode function(SNES, Vec, Vec, void*);
   static PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*);
   static PetscErrorCode before_iteration(SNES, PetscInt);
+  bool factor_serves(int iteration) const;
   static PetscErrorCode before_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode after_solve(KSP, Vec, Vec, void*);
   static PetscErrorCode precheck(SNESLineSearch, Vec, Vec, PetscBool*, void*);
   static PetscErrorCode converged(SNES, PetscInt, PetscReal, PetscReal,
                                   PetscReal, SNESConvergedReason*, void*);
+  /// An entry that a symmetric matrix lost with a held column.
+  struct Lift
+  {
+    int row, column; ///< local unknowns, scaled
+    double value;
+  };
+  void choose_solver();
+  void scale(int cell, double* A);
+  void lift(Vec b);
   void create_matrix();
   void create_solver();
   void unpack(Vec x);
@@ -144,13 +162,18 @@ private:
   dolfinx::la::Vector<double> _z;     ///< unknowns with units
   dolfinx::la::Vector<double> _force; ///< residual with units
   std::vector<double> _coo;
+  std::vector<Lift> _lift;                       ///< of the matrix in use
   double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
+  NewtonLog* _log = nullptr; ///< of the Newton run that goes on
+  bool _held_anew = true;    ///< what is held differs from the matrix's
   std::unique_ptr<output::Clock::Scope> _solving; ///< while KSP works
 
+  bool _symmetric = false; ///< the matrix, in this stage
   SNES _snes = nullptr;
   Mat _J = nullptr;
   Vec _x = nullptr, _r = nullptr;
+  Vec _unlifted = nullptr; ///< right-hand side while KSP works
 };
 } // namespace mmale::lagrangian

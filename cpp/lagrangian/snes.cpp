@@ -8,6 +8,24 @@
 
 namespace mmale::lagrangian
 {
+/// A factorisation that suits the stage; made anew only where that changes.
+void Problem::choose_solver()
+{
+  using enum scene::Factorisation;
+  const bool symmetric =
+      _options.factorisation == ldlt
+      or (_options.factorisation == automatic and _element->symmetric());
+  if (_snes and symmetric == _symmetric)
+    return;
+  _symmetric = symmetric;
+  SNESDestroy(&_snes);
+  MatDestroy(&_J);
+  for (Vec* v : {&_x, &_r, &_unlifted})
+    VecDestroy(v);
+  create_matrix();
+  create_solver();
+}
+
 void Problem::create_matrix()
 {
   const auto& map = _domain.nodes();
@@ -45,6 +63,12 @@ void Problem::create_matrix()
                          column.data());
   _coo.resize(row.size());
   MatCreateVecs(_J, &_x, &_r);
+  if (_symmetric)
+  {
+    MatSetOption(_J, MAT_SYMMETRIC, PETSC_TRUE);
+    MatSetOption(_J, MAT_SYMMETRY_ETERNAL, PETSC_TRUE);
+    VecDuplicate(_r, &_unlifted);
+  }
 }
 
 void Problem::create_solver()
@@ -74,8 +98,18 @@ void Problem::create_solver()
   KSPGetPC(ksp, &pc);
   KSPSetPreSolve(ksp, before_solve, this);
   KSPSetPostSolve(ksp, after_solve, this);
-  PCSetType(pc, PCLU);
+  PCSetType(pc, _symmetric ? PCCHOLESKY : PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
+  // The system is scaled by its units already: MUMPS's own scaling and its
+  // search for a large diagonal cost more than they give.
+  for (const char* option :
+       {"-lagrangian_mat_mumps_icntl_6", "-lagrangian_mat_mumps_icntl_8"})
+  {
+    PetscBool given = PETSC_FALSE;
+    PetscOptionsHasName(nullptr, nullptr, option, &given);
+    if (not given)
+      PetscOptionsSetValue(nullptr, option, "0");
+  }
   if (not _options.petsc.empty())
     PetscOptionsInsertString(nullptr, _options.petsc.c_str());
   SNESSetFromOptions(_snes);
@@ -98,14 +132,53 @@ PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::before_iteration(SNES snes, PetscInt)
+/// Units of the unknowns and equations, held ones out.
+void Problem::scale(int cell, double* A)
 {
-  PetscFunctionBeginUser;
-  void* context = nullptr;
-  PetscCall(SNESGetFunction(snes, nullptr, nullptr, &context));
-  auto& self = *static_cast<Problem*>(context);
-  self._element->begin_iteration(self._z.array());
-  PetscFunctionReturn(PETSC_SUCCESS);
+  // displacement rows in units of G, volume rows of l; pressures G / l: what
+  // is symmetric stays so
+  const double weight = _newmark ? _newmark->weight() : 1;
+  const double row[2] = {weight / _stress, weight / _length};
+  const double column[2] = {1, _stress / _length};
+  std::array<int, 9> unknown;
+  for (int i = 0; i < 9; ++i)
+    unknown[i] = 3 * _domain.cells[cell][i / 3] + i % 3;
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < 9; ++j)
+      A[9 * i + j] *= row[i % 3 == 2] * column[j % 3 == 2];
+  if (_symmetric)
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < i; ++j)
+        A[9 * i + j] = A[9 * j + i] = 0.5 * (A[9 * i + j] + A[9 * j + i]);
+  for (int i = 0; i < 9; ++i)
+  {
+    if (_holder[unknown[i]] < 0)
+      continue;
+    std::fill_n(A + 9 * i, 9, 0.0);
+    for (int j = 0; _symmetric and j < 9; ++j)
+    {
+      double& a = A[9 * j + i];
+      if (a != 0 and _holder[unknown[j]] < 0)
+        _lift.push_back({unknown[j], unknown[i], a});
+      a = 0;
+    }
+  }
+}
+
+/// Take what held unknowns still have to move to the right-hand side.
+void Problem::lift(Vec b)
+{
+  dolfinx::la::Vector<double> moved(_domain.space->dofmap()->index_map, 3);
+  moved.set(0);
+  const auto z = _z.array();
+  for (const auto& [row, column, value] : _lift)
+    moved.mutable_array()[row] += value * (z[column] - _increment[column]);
+  moved.scatter_rev(std::plus<double>());
+  PetscScalar* to = nullptr;
+  VecGetArray(b, &to);
+  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+    to[i] -= moved.array()[i];
+  VecRestoreArray(b, &to);
 }
 
 PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
@@ -114,22 +187,15 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   auto& self = *static_cast<Problem*>(context);
   const auto scope = self._clock.scope("1a law and assembly");
   const auto& d = self._domain;
-  // displacement rows in units of G, volume rows of l; pressures G / l
-  const double weight = self._newmark ? self._newmark->weight() : 1;
-  const double row[2] = {weight / self._stress, 1 / self._length};
-  const double column[2] = {1, self._stress / self._length};
+  self._held_anew = false;
+  self._lift.clear();
   for (int c = 0; c < d.num_owned_cells; ++c)
   {
     double* A = self._coo.data() + 81 * static_cast<std::size_t>(c);
     self._element->jacobian(*self._state, c, self._z.array(), self._constants,
                             A);
     self._loads.add_jacobian(*self._state, c, self._z.array(), A);
-    for (int i = 0; i < 9; ++i)
-    {
-      const bool held = self._holder[3 * d.cells[c][i / 3] + i % 3] >= 0;
-      for (int j = 0; j < 9; ++j)
-        A[9 * i + j] *= held ? 0 : row[i % 3 == 2] * column[j % 3 == 2];
-    }
+    self.scale(c, A);
   }
   double* diagonal =
       self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
@@ -140,6 +206,7 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
       if (self._holder[i] < 0)
       {
         const Newmark& m = *self._newmark;
+        const double weight = m.weight();
         diagonal[i] = m.mass(n) / self._stress
                       * (m.c_a + weight * m.scheme().damping_mass * m.c_v);
       }
@@ -147,19 +214,49 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::before_solve(KSP, Vec, Vec, void* context)
+/// Whether the last factor still serves in this iteration. It never serves in
+/// the next step: a run that is resumed there would not have it.
+bool Problem::factor_serves(int it) const
+{
+  const auto& r = _log->residuals;
+  return it > 0 and not _held_anew
+         and r[it] * (r[it] / r[it - 1]) <= _options.tolerance;
+}
+
+PetscErrorCode Problem::before_iteration(SNES snes, PetscInt it)
+{
+  PetscFunctionBeginUser;
+  void* context = nullptr;
+  PetscCall(SNESGetFunction(snes, nullptr, nullptr, &context));
+  auto& self = *static_cast<Problem*>(context);
+  self._element->begin_iteration(self._z.array());
+  if (self._options.lag_jacobian == 0)
+    PetscCall(SNESSetLagJacobian(snes, self.factor_serves(it) ? -1 : 1));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Problem::before_solve(KSP, Vec b, Vec, void* context)
 {
   PetscFunctionBeginUser;
   auto& self = *static_cast<Problem*>(context);
   self._solving.reset(
       new output::Clock::Scope(self._clock.scope("1b factorise and solve")));
+  if (self._symmetric)
+  {
+    PetscCall(VecCopy(b, self._unlifted));
+    if (self._norm_bc > 0)
+      self.lift(b);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::after_solve(KSP, Vec, Vec, void* context)
+PetscErrorCode Problem::after_solve(KSP, Vec b, Vec, void* context)
 {
   PetscFunctionBeginUser;
-  static_cast<Problem*>(context)->_solving.reset();
+  auto& self = *static_cast<Problem*>(context);
+  if (self._symmetric) // SNES goes on with it
+    PetscCall(VecCopy(self._unlifted, b));
+  self._solving.reset();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -210,7 +307,7 @@ PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y, PetscBool* changed,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
+PetscErrorCode Problem::converged(SNES, PetscInt it, PetscReal, PetscReal,
                                   PetscReal fnorm, SNESConvergedReason* reason,
                                   void* context)
 {
@@ -222,9 +319,7 @@ PetscErrorCode Problem::converged(SNES snes, PetscInt it, PetscReal, PetscReal,
     *reason = SNES_DIVERGED_FNORM_NAN;
   else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
-  void* log = nullptr;
-  PetscCall(SNESGetApplicationContext(snes, &log));
-  static_cast<NewtonLog*>(log)->residuals.push_back(
+  self._log->residuals.push_back(
       std::max({self._norm_u, self._norm_p, self._norm_bc}));
   (void)it;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -11,6 +11,7 @@ struct Elastic
 {
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "elastic";
+  static constexpr bool symmetric = true, yields = false;
   static constexpr std::array<std::string_view, 0> no_history{};
   static constexpr std::span<const std::string_view> history = no_history;
 

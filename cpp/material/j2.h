@@ -14,6 +14,7 @@ struct J2
 {
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "j2";
+  static constexpr bool symmetric = true, yields = true;
   static constexpr std::array<std::string_view, 1> history{"plastic_strain"};
 
   double E = required;            ///< Young's modulus [Pa]

@@ -88,6 +88,9 @@ concept MaterialLaw =
                  Response& answer, Eigen::Ref<Voigt> stress,
                  std::span<const double> history) {
           { L::name } -> std::convertible_to<std::string_view>;
+          // ds_de is symmetric, and p and the deviator do not mix
+          { L::symmetric } -> std::convertible_to<bool>;
+          { L::yields } -> std::convertible_to<bool>; // flow may exceed 0
           // names of the history numbers of a point; also output fields
           { L::history[0] } -> std::convertible_to<std::string_view>;
           { L::parameters[0] } -> std::convertible_to<Parameter<L>>;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "domain.h"
 
+#include "compat.h"
 #include "partition.h"
 #include <algorithm>
-#include <basix/finite-element.h>
 #include <dolfinx/common/MPI.h>
-#include <dolfinx/fem/utils.h>
 #include <dolfinx/la/Vector.h>
 #include <iterator>
 #include <stdexcept>
@@ -26,10 +25,8 @@ std::shared_ptr<dx::mesh::Mesh<double>> distribute(MPI_Comm comm,
   const std::vector<double> x = root ? grid.x : std::vector<double>();
   const dx::mesh::CellPartitionFunction partitioner =
       dx::MPI::size(comm) > 1 ? vertex_halo_partitioner() : nullptr;
-  return std::make_shared<dx::mesh::Mesh<double>>(dx::mesh::create_mesh(
-      comm, comm, std::span(cells),
-      dx::fem::CoordinateElement<double>(dx::mesh::CellType::triangle, 1), comm,
-      x, {x.size() / 2, 2}, partitioner));
+  return std::make_shared<dx::mesh::Mesh<double>>(
+      compat::create_mesh(comm, cells, x, partitioner));
 }
 
 /// Copy the mesh's numbering into plain arrays, cells counter-clockwise.
@@ -217,12 +214,8 @@ Domain make_domain(MPI_Comm comm, const Grid& grid,
   Domain d;
   d.comm = comm;
   d.mesh = distribute(comm, grid);
-  const auto p1 = basix::create_element<double>(
-      basix::element::family::P, basix::cell::type::triangle, 1,
-      basix::element::lagrange_variant::unset,
-      basix::element::dpc_variant::unset, false);
   d.space = std::make_shared<const dolfinx::fem::FunctionSpace<double>>(
-      dolfinx::fem::create_functionspace(d.mesh, p1));
+      compat::lagrange_space(d.mesh, 1));
   d.node_halo = std::make_shared<Halo>(d.space->dofmap()->index_map);
   d.cell_halo = std::make_shared<Halo>(d.mesh->topology()->index_map(2));
   fill_arrays(d);

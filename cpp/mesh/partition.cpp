@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "partition.h"
 
+#include "compat.h"
 #include <algorithm>
 #include <numeric>
 
@@ -38,8 +39,8 @@ dolfinx::mesh::CellPartitionFunction vertex_halo_partitioner()
             const std::vector<std::span<const std::int64_t>>& cells)
              -> dolfinx::graph::AdjacencyList<std::int32_t>
   {
-    const auto owner = dolfinx::mesh::create_cell_partitioner(
-        dolfinx::mesh::GhostMode::none)(comm, num_parts, types, cells);
+    const auto owner = compat::cell_partitioner(dolfinx::mesh::GhostMode::none)(
+        comm, num_parts, types, cells);
     const std::span<const std::int64_t> vertices = cells[0];
     const int num_cells = static_cast<int>(vertices.size() / 3);
     std::vector<Pair> mine;

@@ -124,6 +124,24 @@ std::vector<Timing> Clock::timings(std::int64_t cells,
   return out;
 }
 
+void Clock::add(std::span<const Timing> before, double wall)
+{
+  const auto ticks = [](double s)
+  {
+    return std::chrono::duration_cast<Time::duration>(
+        std::chrono::duration<double>(s));
+  };
+  _begin -= ticks(wall);
+  for (const Timing& timing : before)
+  {
+    const auto at = std::ranges::find(_timers, timing.name, &Timer::name);
+    Timer& t = at == _timers.end() ? _timers.emplace_back() : *at;
+    t.name = timing.name;
+    t.sum += ticks(timing.seconds);
+    t.calls += timing.calls;
+  }
+}
+
 std::string table(std::span<const Timing> timings, double wall)
 {
   std::array<char, 160> head;

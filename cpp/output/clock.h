@@ -70,6 +70,10 @@ public:
   std::vector<Timing> timings(std::int64_t cells,
                               const Reduce& reduce = {}) const;
 
+  /// Go on from what another run of the program has timed.
+  /// @param[in] wall [s]
+  void add(std::span<const Timing> before, double wall);
+
 private:
   using Time = std::chrono::steady_clock;
 

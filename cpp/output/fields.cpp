@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "output/fields.h"
 
+#include "compat.h"
 #include "output/on_root.h"
-#include "output/p1_space.h"
 #include "output/summary.h"
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <charconv>
 #include <dolfinx/fem/Function.h>
 #include <dolfinx/io/VTKFile.h>
 #include <fstream>
@@ -46,8 +48,8 @@ std::shared_ptr<Function> make_function(std::shared_ptr<Mesh> mesh,
     throw std::runtime_error("field \"" + field.name + "\" has "
                              + std::to_string(field.components)
                              + " components; 1, 2 and 4 can be written");
-  const auto space = std::make_shared<const Space>(
-      lagrange_space(mesh, field.location == Location::nodal ? 1 : 0, shape));
+  const auto space = std::make_shared<const Space>(compat::lagrange_space(
+      mesh, field.location == Location::nodal ? 1 : 0, shape));
   auto function = std::make_shared<Function>(space);
   function->name = field.name;
   return function;
@@ -85,15 +87,61 @@ void copy(const NamedField& field, const Function& function,
   }
 }
 
+/// The writer counts from 0 in each call of the program: files of a resumed
+/// run bear the number that it began with.
+std::string stem(std::int64_t begin)
+{
+  return begin == 0 ? "fields" : "fields_" + std::to_string(begin);
+}
+
+/// A number as the file writer has it in names.
+std::string counter(std::size_t n)
+{
+  std::string out = std::to_string(n);
+  out.insert(0, 6 - std::min<std::size_t>(6, out.size()), '0');
+  return out;
+}
+
 /// Files of an older run, perhaps with more ranks or more times.
-void remove_older(const std::filesystem::path& folder)
+void remove_others(const std::filesystem::path& folder,
+                   std::span<const FieldOutput> kept)
 {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
   {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("fields") and name.ends_with("vtu"))
+    if (not name.starts_with("fields") or not name.ends_with("vtu"))
+      continue;
+    bool keep = false;
+    for (std::size_t i = 0; i < kept.size() and not keep; ++i)
+    {
+      const auto first = static_cast<std::size_t>(kept[i].begin);
+      const std::string s = stem(kept[i].begin), c = counter(i - first);
+      keep =
+          name == s + c + ".pvtu"
+          or (name.starts_with(s + "_p") and name.ends_with("_" + c + ".vtu"));
+    }
+    if (not keep)
       std::filesystem::remove(entry.path());
   }
+}
+
+/// The series as ParaView reads it.
+std::string pvd(std::span<const FieldOutput> outputs)
+{
+  std::string out = "<?xml version=\"1.0\"?>\n"
+                    "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+                    "  <Collection>\n";
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+  {
+    const auto& [time, begin] = outputs[i];
+    std::array<char, 32> text;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), time).ptr;
+    out += "    <DataSet timestep=\"" + std::string(text.data(), end)
+           + "\" part=\"0\" file=\"" + stem(begin)
+           + counter(i - static_cast<std::size_t>(begin)) + ".pvtu\" />\n";
+  }
+  return out + "  </Collection>\n</VTKFile>\n";
 }
 
 /// The file writer tells nothing of a full disk: a whole file has its end tag.
@@ -126,11 +174,12 @@ void agree(MPI_Comm comm, const std::string& complaint,
 struct Fields::Impl
 {
   std::shared_ptr<Mesh> mesh;
-  std::filesystem::path file;
+  std::filesystem::path folder, file;
   std::unique_ptr<dolfinx::io::VTKFile> vtk;
   std::vector<Entry> entries;
   std::map<std::string, FieldInfo> info;
-  int written = 0; // number of the next output
+  std::vector<FieldOutput> outputs;
+  std::int64_t begin = 0; // number of the first one by this call
 
   int rank() const
   {
@@ -142,10 +191,10 @@ struct Fields::Impl
   /// This rank's part of the last output, as the file writer names it.
   std::filesystem::path piece() const
   {
-    std::string number = std::to_string(written - 1);
-    number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
-    return file.parent_path()
-           / ("fields_p" + std::to_string(rank()) + "_" + number + ".vtu");
+    const auto n = outputs.size() - 1 - static_cast<std::size_t>(begin);
+    return folder
+           / (stem(begin) + "_p" + std::to_string(rank()) + "_" + counter(n)
+              + ".vtu");
   }
 
   void create(std::span<const NamedField> fields)
@@ -176,24 +225,40 @@ struct Fields::Impl
   }
 };
 
-Fields::Fields(std::shared_ptr<Mesh> mesh, std::filesystem::path folder)
+Fields::Fields(std::shared_ptr<Mesh> mesh, std::filesystem::path folder,
+               std::vector<FieldOutput> earlier)
     : _impl(std::make_unique<Impl>())
 {
   _impl->mesh = std::move(mesh);
+  _impl->folder = folder;
   _impl->file = folder / "fields.pvd";
+  _impl->begin = static_cast<std::int64_t>(earlier.size());
+  _impl->outputs = std::move(earlier);
   // The field writer reports no failure of its files: try the place first.
   on_root(_impl->mesh->comm(),
           [&]
           {
             std::filesystem::create_directories(folder);
-            remove_older(folder);
-            write_atomically(_impl->file, "");
+            remove_others(folder, _impl->outputs);
+            write_atomically(_impl->file, pvd(_impl->outputs));
           });
-  _impl->vtk = std::make_unique<dolfinx::io::VTKFile>(_impl->mesh->comm(),
-                                                      _impl->file, "w");
+  _impl->vtk = std::make_unique<dolfinx::io::VTKFile>(
+      _impl->mesh->comm(), folder / (stem(_impl->begin) + ".pvd"), "w");
 }
 
-Fields::~Fields() = default;
+Fields::~Fields()
+{
+  // The writer leaves a series of its own outputs behind.
+  if (not _impl or not _impl->vtk)
+    return;
+  const bool ours = _impl->rank() == 0 and _impl->begin > 0;
+  _impl->vtk.reset();
+  std::error_code error;
+  if (ours)
+    std::filesystem::remove(_impl->folder / (stem(_impl->begin) + ".pvd"),
+                            error);
+}
+
 Fields::Fields(Fields&&) noexcept = default;
 Fields& Fields::operator=(Fields&&) noexcept = default;
 
@@ -221,12 +286,24 @@ void Fields::write(double t, std::span<const NamedField> fields)
     _impl->vtk->write(*_impl->mesh, t);
   else
     _impl->vtk->write<double>(list, t);
-  _impl->vtk->flush();
-  ++_impl->written;
+  _impl->outputs.push_back({t, _impl->begin});
   complaint = broken(_impl->piece());
-  if (complaint.empty() and _impl->rank() == 0)
-    complaint = broken(_impl->file);
   agree(comm, complaint, elsewhere);
+  if (_impl->begin == 0)
+    _impl->vtk->flush();
+  on_root(comm,
+          [&]
+          {
+            if (_impl->begin > 0)
+              write_atomically(_impl->file, pvd(_impl->outputs));
+            else if (const auto why = broken(_impl->file); not why.empty())
+              throw std::runtime_error(why);
+          });
+}
+
+const std::vector<FieldOutput>& Fields::outputs() const
+{
+  return _impl->outputs;
 }
 
 const std::map<std::string, FieldInfo>& Fields::info() const

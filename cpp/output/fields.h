@@ -2,12 +2,14 @@
 #pragma once
 
 #include "output/pictures.h"
+#include <cstdint>
 #include <dolfinx/mesh/Mesh.h>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 /// Fields for ParaView on the moving mesh: nodal and cell data in one set of
 /// files, `fields.pvd` and one .vtu a rank and time.
@@ -34,17 +36,27 @@ struct NamedField
   std::string unit = {}; ///< for colour bars; empty: a plain number
 };
 
+/// An output of fields that is on the disk.
+struct FieldOutput
+{
+  double time = 0;        ///< [s]
+  std::int64_t begin = 0; ///< number of the first output by the same program
+};
+
 class Fields
 {
 public:
-  /// Collective. The folder is made if missing.
+  /// Collective. The folder is made if missing; files of outputs other than
+  /// the earlier ones are removed.
   ///
   /// @param[in] mesh   triangles of degree 1; its geometry is read anew at
   /// each `write`
   /// @param[in] folder of the run
+  /// @param[in] earlier outputs of this run by another call of the program,
+  /// which stay
   /// @throws std::runtime_error on all ranks if the folder cannot be written
   Fields(std::shared_ptr<dolfinx::mesh::Mesh<double>> mesh,
-         std::filesystem::path folder);
+         std::filesystem::path folder, std::vector<FieldOutput> earlier = {});
 
   ~Fields();
   Fields(Fields&&) noexcept;
@@ -59,6 +71,9 @@ public:
   /// @param[in] fields same list on every rank and at every call
   /// @throws std::runtime_error on all ranks naming the file and the cause
   void write(double t, std::span<const NamedField> fields);
+
+  /// All outputs so far, the earlier ones too.
+  const std::vector<FieldOutput>& outputs() const;
 
   /// Units of what was written, for the pictures.
   const std::map<std::string, FieldInfo>& info() const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "output/probe.h"
 
+#include "compat.h"
 #include "output/on_root.h"
-#include "output/p1_space.h"
 #include "output/summary.h"
 #include <algorithm>
 #include <array>
@@ -119,7 +119,7 @@ std::string header(std::span<const NamedField> fields)
 } // namespace
 
 Probe::Probe(std::shared_ptr<dolfinx::mesh::Mesh<double>> mesh)
-    : _mesh(std::move(mesh)), _nodes(lagrange_space(_mesh, 1).dofmap())
+    : _mesh(std::move(mesh)), _nodes(compat::lagrange_space(_mesh, 1).dofmap())
 {
 }
 

@@ -90,9 +90,16 @@ std::string Progress::numbers(const Step& step, double share) const
       format("t %.4g s  dt %.3g s  step %lld  Newton %d", step.time, step.size,
              static_cast<long long>(step.number), step.iterations);
   const double spent = _now() - _started;
-  if (share > 0 and share < 1)
-    out += "  left " + duration(spent * (1 - share) / share);
+  if (share > _first and share < 1)
+    out += "  left " + duration(spent * (1 - share) / (share - _first));
   return out;
+}
+
+void Progress::resume(const Step& step)
+{
+  _step = step;
+  _first = share(step.time);
+  _tenth = static_cast<int>(10 * _first + 1e-9);
 }
 
 void Progress::show(const Step& step)

@@ -51,6 +51,10 @@ public:
   /// Takes the bar off the screen, if `finish` was never called.
   ~Progress();
 
+  /// What another run of the program has reached took none of our time.
+  /// @param[in] step the last one
+  void resume(const Step& step);
+
   void show(const Step& step);
 
   /// A message of its own line; the bar stays below it.
@@ -71,9 +75,10 @@ private:
   std::ostream& _out;
   std::function<int()> _width;
   std::function<double()> _now;
-  double _started; // wall time [s]
-  double _shown;   // wall time of the last sign of life [s]
-  int _tenth = 0;  // last tenth for which a line was written
+  double _started;   // wall time [s]
+  double _first = 0; // share that was done when this run began
+  double _shown;     // wall time of the last sign of life [s]
+  int _tenth = 0;    // last tenth for which a line was written
   bool _on_screen = false;
   bool _finished = false;
   Step _step;

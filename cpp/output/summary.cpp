@@ -167,6 +167,7 @@ std::string to_json(const Summary& s)
                             {"remaps", s.remaps},
                             {"remaps_left_out", s.remaps_left_out},
                             {"remap_trouble", s.remap_trouble},
+                            {"resumed", s.resumed},
                             {"cells", s.cells},
                             {"nodes", s.nodes},
                             {"wall_seconds", number(s.wall_seconds)},

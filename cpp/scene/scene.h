@@ -188,6 +188,15 @@ enum class Tangent
   continuum
 };
 
+/// How Newton's matrix is factorised.
+enum class Factorisation
+{
+  automatic, ///< ldlt where the law's tangent is symmetric, lu elsewhere
+  lu,        ///< the whole tangent
+  ldlt ///< its symmetric part: half the work; what is left out of the tangent
+       ///< costs iterations, never accuracy
+};
+
 /// Knobs of the Lagrangian step.
 struct Solver
 {
@@ -198,7 +207,9 @@ struct Solver
   bool geometric_stiffness = true; ///< off: slower Newton, same answer
   double tolerance = 1e-8; ///< relative to the norm of the cells' own forces
   int max_iterations = 15; ///< a step with more fails and is halved
-  int lag_jacobian = 1;    ///< factorise every n-th Newton iteration
+  Factorisation factorisation = Factorisation::automatic;
+  int lag_jacobian = 0; ///< matrix and factor are made every n-th iteration; 0:
+                        ///< but where one more with the last one will do
   bool line_search = true;
   bool plastic_bubble = true;  ///< METHOD.md, form P; off: noisier pressure
   double bubble_spring = 0.05; ///< of layout `quadrature`, METHOD.md; 0: steps
@@ -311,6 +322,9 @@ struct Chart
 struct Output
 {
   double fields_every = 0; ///< [s]; 0: start, end, and the pictures' times
+  /// Wall time from checkpoint to checkpoint [s]; 0: only when the run ends.
+  /// Doubled: half their cost, twice as much to do again after a crash.
+  double checkpoint_every = 60;
   std::map<std::string, Curve> curve;
   std::map<std::string, Line> line;
   std::map<std::string, Chart> chart;

@@ -37,8 +37,8 @@ concept Table =
           ReferenceLine, Chart, Picture, Output, Scene>;
 
 template <class T>
-concept Enumeration =
-    OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent, RemapMode>;
+concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent,
+                            Factorisation, RemapMode>;
 
 /// Names of an enumeration, in the order of its values.
 template <Enumeration E>
@@ -68,6 +68,11 @@ const std::vector<std::string>& names()
   else if constexpr (std::same_as<E, Tangent>)
   {
     static const Names list = {"consistent", "continuum"};
+    return list;
+  }
+  else if constexpr (std::same_as<E, Factorisation>)
+  {
+    static const Names list = {"automatic", "lu", "ldlt"};
     return list;
   }
   else
@@ -319,8 +324,12 @@ void keys(V& v, Solver& s)
   v({"max_iterations", "-", "A step with more Newton iterations is halved.",
      at_least(1)},
     s.max_iterations);
-  v({"lag_jacobian", "-", "The matrix is factorised every n-th iteration.",
-     at_least(1)},
+  v({"factorisation", "",
+     "Factors of Newton's matrix: lu, or ldlt of its symmetric part."},
+    s.factorisation);
+  v({"lag_jacobian", "-",
+     "The matrix is made and factorised every n-th iteration; 0: as needed.",
+     at_least(0)},
     s.lag_jacobian);
   v({"line_search", "", "Line search in Newton's method."}, s.line_search);
   v({"plastic_bubble", "",
@@ -435,6 +444,10 @@ void keys(V& v, Output& o)
      "Time between outputs of fields; 0 means start, end and pictures.",
      at_least(0)},
     o.fields_every);
+  v({"checkpoint_every", "s",
+     "Wall time between checkpoints; 0 means only when the run ends.",
+     at_least(0)},
+    o.checkpoint_every);
   v({"curve", "", "Columns of curves.csv, by name."}, o.curve);
   v({"line", "", "Values along straight lines, by name."}, o.line);
   v({"chart", "", "Curves in one picture, by name."}, o.chart);

@@ -447,6 +447,11 @@ expect_code 0
 expect_count "program run demos/piercing/scene.toml a.b=1" 3
 expect_log "mpirun -n 3 --oversubscribe"
 
+begin "--resume goes to the program, of a demo too"
+call demo cook_membrane --resume -n 2
+expect_code 0
+expect_count "program run demos/cook_membrane/scene.toml --resume" 2
+
 # --- signals ----------------------------------------------------------------------
 
 # A run of "$@" gets signal $1, alone or with its group ($2), and must save its

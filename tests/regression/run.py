@@ -230,7 +230,7 @@ def piercing_tangles():
     z = curves(folder)["z_B"][-1]
     # measured 0.068; the remapped run goes to 0.25 on the same mesh
     hold(0.03 < z < 0.15, f"tangled at z/B = {z:.4f}")
-    hold((folder / "state.h5").stat().st_size > 0, "state.h5 is written")
+    hold((folder / "checkpoint.h5").stat().st_size > 0, "checkpoint.h5 is written")
 
 
 def shape(folder):
@@ -584,7 +584,7 @@ def signal_():
     hold(code == 3, f"exit code {code}")
     outcome = summary(folder)["outcome"]
     hold(outcome == "stopped by a signal", f"outcome: {outcome}")
-    hold((folder / "state.h5").stat().st_size > 0, "state.h5 is written")
+    hold((folder / "checkpoint.h5").stat().st_size > 0, "checkpoint.h5 is written")
     hold(curves(folder)["z_B"][-1] < 0.25, "before the end")
 
 

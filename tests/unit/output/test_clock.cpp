@@ -147,3 +147,23 @@ TEST_CASE("clock: the table adds up to the whole run")
   CHECK_THAT(text, ContainsSubstring("other                               3.000"
                                      "   30.0 %"));
 }
+
+TEST_CASE("clock: a resumed run counts on from what was timed before")
+{
+  Clock clock;
+  {
+    const auto step = clock.scope("2 smooth");
+  }
+  const std::vector<Timing> before = {
+      {.name = "1 lagrangian", .seconds = 100, .calls = 7},
+      {.name = "2 smooth", .seconds = 50, .calls = 3}};
+  clock.add(before, 200);
+  const auto t = clock.timings(1);
+  REQUIRE(t.size() == 2);
+  CHECK(t[0].calls == 7);
+  CHECK(t[1].calls == 4);
+  // the empty scope adds next to nothing
+  CHECK(t[0].seconds == Approx(100));
+  CHECK(t[1].seconds == Approx(50).epsilon(1e-3));
+  CHECK(clock.wall() == Approx(200).epsilon(1e-2));
+}

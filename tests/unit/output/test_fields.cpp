@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "compat.h"
 #include "output/fields.h"
 #include "output/on_root.h"
-#include "output/p1_space.h"
 #include "output/probe.h"
 #include "output/versions.h"
 
@@ -47,7 +47,7 @@ std::shared_ptr<Mesh> rectangle(std::int64_t n = 6)
 /// Coordinates of the P1 dofs, shape (local nodes, 3) [m].
 std::vector<double> node_coordinates(std::shared_ptr<Mesh> mesh)
 {
-  return lagrange_space(mesh, 1).tabulate_dof_coordinates(false);
+  return mmale::compat::lagrange_space(mesh, 1).tabulate_dof_coordinates(false);
 }
 
 /// Middles of the local cells, shape (local cells, 2) [m].
@@ -159,6 +159,49 @@ TEST_CASE("fields: files of an older run go")
           });
   const Fields fields(rectangle(2), folder() / "again");
   CHECK_FALSE(std::filesystem::exists(old));
+}
+
+TEST_CASE("fields: a resumed run keeps the earlier outputs it knows of")
+{
+  const auto mesh = rectangle();
+  const auto place = folder() / "resumed";
+  on_root(MPI_COMM_WORLD, [&] { std::filesystem::remove_all(place); });
+  const std::vector<double> x(middles(*mesh).size(), 1.0);
+  const NamedField field{"x", Location::cell, 1, x, ""};
+  std::vector<FieldOutput> known;
+  {
+    Fields fields(mesh, place);
+    for (const double t : {0.0, 1.0, 2.0, 3.0})
+      fields.write(t, std::span(&field, 1));
+    known = fields.outputs();
+  }
+  REQUIRE(known.size() == 4);
+  known.resize(3); // the checkpoint is older than the last output
+  for (const double t : {2.5, 2.75})
+  {
+    Fields fields(mesh, place, known);
+    fields.write(t, std::span(&field, 1));
+    known = fields.outputs();
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  std::ifstream in(place / "fields.pvd");
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  std::size_t at = 0;
+  for (const char* t : {"\"0\"", "\"1\"", "\"2\"", "\"2.5\"", "\"2.75\""})
+  {
+    INFO(t);
+    at = text.find(std::string("timestep=") + t, at);
+    REQUIRE(at != std::string::npos);
+    const auto name = text.find("file=\"", at) + 6;
+    CHECK(std::filesystem::exists(
+        place / text.substr(name, text.find('"', name) - name)));
+  }
+  int ranks = 1, files = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  for (const auto& entry : std::filesystem::directory_iterator(place))
+    files += entry.path().filename().string().starts_with("fields");
+  CHECK(files == 1 + 5 * (1 + ranks));
+  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST_CASE("fields: wrong lists are refused on all ranks")

@@ -66,6 +66,16 @@ TEST_CASE("progress: a slow run gives a sign of life every 30 s")
   CHECK_THAT(text, ContainsSubstring("left 49 min 30 s"));
 }
 
+TEST_CASE("progress: a resumed run knows that the first part took no time")
+{
+  Bench b(Progress::Style::lines);
+  b.progress.resume({.time = 1, .number = 10}); // half of the run
+  b.now += 40;
+  b.progress.show({.time = 1.2, .size = 0.1, .number = 12});
+  // a tenth took 40 s: four more of them
+  CHECK_THAT(b.said(), ContainsSubstring("left 2 min 40 s"));
+}
+
 TEST_CASE("progress: the bar is redrawn in place and fits the terminal")
 {
   for (int columns : {20, 40, 80, 200})

@@ -18,11 +18,14 @@ struct Body::Parts
         element(lagrangian::make_element(sim.domain, *sim.law, scene.symmetry,
                                          scene.solver))
   {
+    constants.spring = scene.solver.bubble_spring;
+    element->begin_step();
   }
   scene::Scene scene;
   Simulation sim;
   std::unique_ptr<lagrangian::Element> element;
   lagrangian::Constants constants;
+  std::optional<lagrangian::Newmark> newmark;
 };
 
 Body::Body(scene::Scene scene)
@@ -94,6 +97,43 @@ std::array<double, 2> Body::mismatch() const
   return _parts->sim.problem->mismatch(_parts->sim.state);
 }
 
+double Body::kinetic_energy()
+{
+  return _parts->sim.problem->kinetic_energy(state());
+}
+
+void Body::rebalance(double t)
+{
+  _parts->sim.problem->rebalance(state(), t);
+}
+
+void Body::set_gravity(std::array<double, 2> start, std::array<double, 2> end)
+{
+  std::ranges::copy(start, _parts->constants.g_n);
+  std::ranges::copy(end, _parts->constants.g);
+}
+
+void Body::set_dynamics(const scene::Dynamics& scheme, double dt)
+{
+  Parts& p = *_parts;
+  const auto size = static_cast<std::size_t>(2 * num_nodes());
+  state().a.resize(size);
+  state().p_rate.resize(num_nodes());
+  p.newmark.emplace(p.sim.domain, p.scene.symmetry, scheme.resolved());
+  p.newmark->begin_step(state(), dt);
+  p.element->set_newmark(&*p.newmark);
+  p.constants.dt = dt;
+  p.constants.c_a = p.newmark->c_a;
+  p.constants.c_v = p.newmark->c_v;
+  p.constants.c_r = p.newmark->c_r;
+  p.constants.b = scheme.damping_stiffness;
+}
+
+void Body::begin_iteration(std::span<const double> z)
+{
+  _parts->element->begin_iteration(z);
+}
+
 bool Body::evaluate(std::span<const double> z)
 {
   std::string why;
@@ -125,6 +165,7 @@ void Body::full(int c, std::span<const double> z, std::span<double> R,
 void Body::accept(std::span<const double> z)
 {
   _parts->element->accept(state(), z, 1);
+  _parts->element->begin_step();
 }
 
 double Body::volume(int c) const
@@ -143,6 +184,14 @@ scene::Scene rectangle(double width, double height, int nx, int ny,
   scene.mesh.cells = {nx, ny};
   scene.material["body"] = {std::move(law), std::move(parameters)};
   return scene;
+}
+
+void use_points(scene::Scene& scene, int points)
+{
+  scene.solver.layout =
+      points == 1 ? scene::Layout::mean : scene::Layout::quadrature;
+  if (points != 1)
+    scene.solver.points = points;
 }
 
 scene::Stage stage(double duration, double step)
@@ -179,6 +228,7 @@ double solve_prescribed(
   {
     if (not body.evaluate(z))
       return std::numeric_limits<double>::quiet_NaN();
+    body.begin_iteration(z);
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd r = Eigen::VectorXd::Zero(n);
     for (int c = 0; c < body.num_cells(); ++c)

@@ -46,9 +46,15 @@ public:
   [[nodiscard]] Taken step(double t0, double t1);
   std::array<double, 2> reaction(const std::string& boundary) const;
   std::array<double, 2> mismatch() const; ///< RMS of P - p, theta - ln J
+  double kinetic_energy();                ///< of a dynamic stage [J/m]
+  void rebalance(double t);               ///< as after a remap
 
   /// Cell by cell, at unknowns z = (ux, uy, p) a node.
   [[nodiscard]] bool evaluate(std::span<const double> z);
+  void begin_iteration(std::span<const double> z);
+  /// Constants of the forms, and inertia over a step of `dt`.
+  void set_gravity(std::array<double, 2> start, std::array<double, 2> end);
+  void set_dynamics(const scene::Dynamics& scheme, double dt);
   std::array<double, 9> residual(int c, std::span<const double> z) const;
   std::array<double, 81> jacobian(int c, std::span<const double> z) const;
   /// Before condensation: 11 and 11 x 11 numbers, the bubble's two last.
@@ -66,6 +72,9 @@ private:
 scene::Scene rectangle(double width, double height, int nx, int ny,
                        std::string law,
                        std::map<std::string, double> parameters);
+
+/// Layout `mean` for 1 point a cell, else `quadrature`.
+void use_points(scene::Scene& scene, int points);
 
 /// A constant over the stage.
 inline scene::TimeSeries constant(double value)

@@ -13,7 +13,7 @@ using test::Body;
 
 namespace
 {
-scene::Scene scene_of(const char* law, scene::Symmetry symmetry)
+scene::Scene scene_of(const char* law, scene::Symmetry symmetry, int points)
 {
   auto scene = test::rectangle(1, 1, 3, 3, law,
                                {{"E", 100}, {"nu", 0.4}, {"density", 1}});
@@ -23,6 +23,7 @@ scene::Scene scene_of(const char* law, scene::Symmetry symmetry)
   scene.mesh.distortion = 0.3;
   scene.mesh.origin = {0.2, 0};
   scene.symmetry = symmetry;
+  test::use_points(scene, points);
   return scene;
 }
 
@@ -37,6 +38,49 @@ std::vector<double> trial(const Body& body, double displacement,
     z[i] = (i % 3 == 2 ? pressure : displacement) * uniform(random);
   return z;
 }
+/// Largest difference of the cells' tangents from central differences of their
+/// residuals along a random direction, relative to a row's terms.
+///
+/// @param[in] step displacements of the direction; pressures 100 times that
+double tangent_error(Body& body, const std::vector<double>& z, double step)
+{
+  REQUIRE(body.evaluate(z));
+  std::vector<std::array<double, 81>> J;
+  for (int c = 0; c < body.num_cells(); ++c)
+    J.push_back(body.jacobian(c, z));
+  body.begin_iteration(z);
+  const auto d = trial(body, step, 100 * step, 9);
+  std::vector<std::array<double, 9>> slope(body.num_cells());
+  for (const double side : {1.0, -1.0})
+  {
+    auto y = z;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      y[i] += side * d[i];
+    REQUIRE(body.evaluate(y));
+    for (int c = 0; c < body.num_cells(); ++c)
+    {
+      const auto R = body.residual(c, y);
+      for (int i = 0; i < 9; ++i)
+        slope[c][i] += 0.5 * side * R[i];
+    }
+  }
+  double error = 0;
+  for (int c = 0; c < body.num_cells(); ++c)
+    for (int i = 0; i < 9; ++i)
+    {
+      double expected = 0, size = 0;
+      for (int j = 0; j < 9; ++j)
+      {
+        const double term =
+            J[c][9 * i + j] * d[3 * body.cell(c)[j / 3] + j % 3];
+        expected += term;
+        size += std::abs(term);
+      }
+      error = std::max(error, std::abs(slope[c][i] - expected) / size);
+    }
+  return error;
+}
+
 } // namespace
 
 TEST_CASE("a Newton step with the bubbles as unknowns is the condensed one",
@@ -44,8 +88,11 @@ TEST_CASE("a Newton step with the bubbles as unknowns is the condensed one",
 {
   const auto symmetry =
       GENERATE(scene::Symmetry::plane_strain, scene::Symmetry::axisymmetric);
-  Body body(scene_of("j2", symmetry));
-  const auto z = trial(body, 0.02, 2, 3); // elastic and plastic cells
+  const int points = GENERATE(1, 3, 6);
+  CAPTURE(symmetry, points);
+  Body body(scene_of("j2", symmetry, points));
+  // elastic and plastic cells; what bubbles of plastic points can still hold
+  const auto z = trial(body, 0.02, points == 1 ? 2 : 0.3, 3);
   REQUIRE(body.evaluate(z));
   const int nodal = 3 * body.num_nodes();
   const int all = nodal + 2 * body.num_cells();
@@ -104,46 +151,86 @@ TEST_CASE("the element's tangent is the derivative of its residual",
   // seen: the tangent must be exact.
   const auto symmetry =
       GENERATE(scene::Symmetry::plane_strain, scene::Symmetry::axisymmetric);
-  Body body(scene_of("elastic", symmetry));
+  Body body(scene_of("elastic", symmetry, 1));
   auto z = trial(body, 0.03, 5, 7);
   for (int n = 0; n < body.num_nodes(); ++n)
     body.state().p[n] = z[3 * n + 2];
   std::mt19937_64 random(8);
   for (double& s : body.state().s)
     s = static_cast<double>(random() % 1000) / 100;
-  REQUIRE(body.evaluate(z));
-  std::vector<std::array<double, 81>> J;
-  for (int c = 0; c < body.num_cells(); ++c)
-    J.push_back(body.jacobian(c, z));
+  // truncation 1e-12, round-off 1e-10
+  CHECK(tangent_error(body, z, 1e-6) < 1e-7);
+}
 
-  const auto d = trial(body, 1, 100, 9);
-  constexpr double h = 1e-6; // truncation 1e-12, round-off 1e-10
-  std::vector<std::array<double, 9>> slope(body.num_cells());
-  for (const double side : {1.0, -1.0})
+TEST_CASE("about a homogeneous strain the tangent is exact, up to the step's "
+          "strain in the bubbles of layout quadrature",
+          "[verification][element]")
+{
+  // A stretch of a tenth in one stress: bubbles at rest, the rest at its
+  // largest. The points' bubbles do not move the geometry, the tangent takes
+  // them as if they did. (Layout mean about an axis takes the plastic flow at
+  // all points of the bubble's rule instead of in the middle, O(h / r)^2.)
+  const char* law = GENERATE("elastic", "j2");
+  const auto symmetry =
+      GENERATE(scene::Symmetry::plane_strain, scene::Symmetry::axisymmetric);
+  const int points = GENERATE(1, 3, 6);
+  const bool round = symmetry == scene::Symmetry::axisymmetric;
+  double error[2];
+  for (int level = 0; level < 2; ++level)
   {
-    auto y = z;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      y[i] += side * h * d[i];
-    REQUIRE(body.evaluate(y));
-    for (int c = 0; c < body.num_cells(); ++c)
+    const double share = level ? 0.1 : 1;
+    auto scene = scene_of(law, symmetry, points);
+    if (law == std::string("j2"))
+      scene.material["body"].parameters["yield_stress"] = 0.1;
+    Body body(scene);
+    std::vector<double> z(3 * body.num_nodes(), 2);
+    for (int n = 0; n < body.num_nodes(); ++n)
     {
-      const auto R = body.residual(c, y);
-      for (int i = 0; i < 9; ++i)
-        slope[c][i] += side * R[i] / (2 * h);
+      const double x = share * body.state().x[2 * n],
+                   y = share * body.state().x[2 * n + 1];
+      z[3 * n] = 0.08 * x + (round ? 0 : 0.05 * y);
+      z[3 * n + 1] = -0.06 * y - (round ? 0 : 0.03 * x);
+      body.state().p[n] = 2;
     }
+    error[level] = tangent_error(body, z, 1e-6);
   }
-  for (int c = 0; c < body.num_cells(); ++c)
-    for (int i = 0; i < 9; ++i)
-    {
-      double expected = 0, size = 0;
-      for (int j = 0; j < 9; ++j)
-      {
-        const double term =
-            J[c][9 * i + j] * d[3 * body.cell(c)[j / 3] + j % 3];
-        expected += term;
-        size += std::abs(term);
-      }
-      INFO("cell " << c << ", row " << i);
-      CHECK(slope[c][i] == Approx(expected).margin(1e-7 * size));
-    }
+  CAPTURE(law, symmetry, points, error[0], error[1]);
+  if (points > 1)
+  {
+    CHECK(error[0] < 0.06);
+    CHECK(error[1] < 0.35 * error[0]);
+  }
+  else if (round and law == std::string("j2"))
+    CHECK(error[0] < 0.06);
+  else
+    CHECK(error[0] < 1e-7);
+}
+
+TEST_CASE("the tangent is exact for small steps, with inertia and damping, in "
+          "every layout",
+          "[verification][element]")
+{
+  // What the tangent leaves out, the bubble's part in the change of geometry,
+  // goes with the strain, 1e-4 here. J2 starts on its yield surface: some
+  // cells flow, some unload.
+  const char* law = GENERATE("elastic", "j2");
+  const auto symmetry =
+      GENERATE(scene::Symmetry::plane_strain, scene::Symmetry::axisymmetric);
+  const int points = GENERATE(1, 3, 6);
+  const bool dynamic = GENERATE(false, true);
+  CAPTURE(law, symmetry, points, dynamic);
+  Body body(scene_of(law, symmetry, points));
+  const auto z = trial(body, 1e-5, 1e-3, 12);
+  for (std::size_t q = 0; q < body.state().P.size(); ++q)
+    Eigen::Vector4d::Map(&body.state().s[4 * q]) =
+        Eigen::Vector4d(1, -1, 0, 0) / std::sqrt(3);
+  if (dynamic)
+  {
+    const auto motion = trial(body, 1e-4, 0, 13);
+    for (int n = 0; n < body.num_nodes(); ++n)
+      for (int d = 0; d < 2; ++d)
+        body.state().v[2 * n + d] = motion[3 * n + d];
+    body.set_dynamics({.damping_stiffness = 0.02}, 0.1); // c h / dt of order 1
+  }
+  CHECK(tangent_error(body, z, 1e-8) < 1e-3);
 }

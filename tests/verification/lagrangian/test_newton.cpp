@@ -27,6 +27,7 @@ scene::Scene block(scene::Tangent tangent, double E = 2.6e6)
   scene.solver.tangent = tangent;
   scene.solver.tolerance = 1e-11;
   scene.solver.max_iterations = 200;
+  scene.solver.lag_jacobian = 1; // the order is that of a fresh matrix
   return scene;
 }
 
