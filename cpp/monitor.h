@@ -62,7 +62,8 @@ private:
   output::Probe _probe;
   std::vector<std::string> _names;
   std::vector<Column> _columns;
-  std::vector<int> _watched; ///< boundaries with conditions in some stage
+  std::vector<int>
+      _watched; ///< boundaries with conditions in some stage, or a curve
   std::vector<scene::Point> _points, _displacement;
   std::vector<output::Spot> _spots;
   std::vector<std::array<double, 2>> _moved; ///< of each boundary, mean
