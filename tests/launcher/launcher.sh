@@ -272,7 +272,7 @@ call demo
 expect_code 1
 expect "no space: making the root takes 4500 MB in /tmp or /var/tmp"
 expect_no_log mmdebstrap
-echo 7600 > "$fake/free"
+echo 8100 > "$fake/free"
 call demo
 expect_code 0
 
