@@ -25,14 +25,6 @@ struct Forms<3>
   {
     return axi ? *form_points_J_3_axi : *form_points_J_3_plane;
   }
-  static const ufcx_form& R_inertia(bool axi)
-  {
-    return axi ? *form_inertia_R_3_axi : *form_inertia_R_3_plane;
-  }
-  static const ufcx_form& J_inertia(bool axi)
-  {
-    return axi ? *form_inertia_J_3_axi : *form_inertia_J_3_plane;
-  }
 };
 
 template <>
@@ -46,14 +38,6 @@ struct Forms<6>
   {
     return axi ? *form_points_J_6_axi : *form_points_J_6_plane;
   }
-  static const ufcx_form& R_inertia(bool axi)
-  {
-    return axi ? *form_inertia_R_6_axi : *form_inertia_R_6_plane;
-  }
-  static const ufcx_form& J_inertia(bool axi)
-  {
-    return axi ? *form_inertia_J_6_axi : *form_inertia_J_6_plane;
-  }
 };
 } // namespace
 
@@ -65,8 +49,6 @@ PointElement<n>::PointElement(const mesh::Domain& domain,
     : Element(domain, law, symmetry, options, n),
       _R(Forms<n>::R(_axisymmetric), IntegralKind::cell),
       _J(Forms<n>::J(_axisymmetric), IntegralKind::cell),
-      _R_inertia(Forms<n>::R_inertia(_axisymmetric), IntegralKind::cell),
-      _J_inertia(Forms<n>::J_inertia(_axisymmetric), IntegralKind::cell),
       _R_damping(_axisymmetric ? *form_inertia_R_damping_axi
                                : *form_inertia_R_damping_plane,
                  IntegralKind::cell),
@@ -208,8 +190,6 @@ const char* PointElement<n>::balance_bubble(const State& state, int c,
     double x[9], R[11] = {}, A[121];
     gather(state, c, z, in, x);
     _R(R, in, constants, x);
-    if (_newmark)
-      _R_inertia(R, in, constants, x);
     std::copy_n(R + 9, 2, cell.force);
     if (R[9] * R[9] + R[10] * R[10]
         <= bubble_tolerance * bubble_tolerance * size_squared(c))
@@ -288,8 +268,6 @@ void PointElement<n>::tangent_of(const State& state, int c,
   add_tangent(c, in);
   std::fill_n(A, 121, 0.0);
   _J(A121, in, constants, x);
-  if (_newmark)
-    _J_inertia(A121, in, constants, x);
   if (constants.b > 0)
     _J_damping(A121, in, constants, x);
 }
@@ -316,7 +294,7 @@ void PointElement<n>::residual(const State& state, int c,
   _R(R11, in, constants, x);
   if (constants.b > 0)
     _R_damping(R11, in, constants, x);
-  std::copy_n(R11, 9, R); // the bubble's inertia acts on the bubble alone
+  std::copy_n(R11, 9, R);
 }
 
 template <int n>
@@ -360,8 +338,6 @@ void PointElement<n>::full(const State& state, int c, std::span<const double> z,
   gather(state, c, z, in, x);
   std::ranges::fill(R11, 0.0);
   _R(R11, in, constants, x);
-  if (_newmark)
-    _R_inertia(R11, in, constants, x);
   tangent_of(state, c, z, constants, J121.data());
 }
 

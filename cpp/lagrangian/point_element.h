@@ -87,7 +87,7 @@ private:
   void keep_blocks(Cell& cell, const double* A);
 
   using KernelN = BasicKernel<PointInput<n>>;
-  KernelN _R, _J, _R_inertia, _J_inertia, _R_damping, _J_damping;
+  KernelN _R, _J, _R_damping, _J_damping;
   std::vector<Cell> _cell;
 };
 

@@ -138,9 +138,11 @@ namespace
 ///
 /// Energy by the trapezoid rule of work is kept by construction; the
 /// amplitude is not.
-double amplitude_growth(int points, int steps)
+double amplitude_growth(int points, double spring, int steps)
 {
-  Column column(10, points, {});
+  auto scene = Column::scene(10, points);
+  scene.solver.bubble_spring = spring;
+  Column column(scene, {});
   column.add_mode(1, v_0);
   column.begin();
   const double w = Column::frequency(), dt = 0.2 / w;
@@ -170,7 +172,7 @@ TEST_CASE("the trapezoid rule keeps amplitude and energy",
           "[verification][dynamics]")
 {
   const int points = GENERATE(1, 3, 6);
-  const double growth = amplitude_growth(points, 100);
+  const double growth = amplitude_growth(points, 0.05, 100);
   CAPTURE(points, growth);
   CHECK(std::abs(growth) < 1e-3);
 }
@@ -179,9 +181,17 @@ TEST_CASE("the trapezoid rule keeps amplitude and energy over 1e4 steps",
           "[verification][dynamics][slow]")
 {
   const int points = GENERATE(1, 3, 6);
-  const double growth = amplitude_growth(points, 10000);
-  CAPTURE(points, growth);
-  CHECK(std::abs(growth) < 1e-2);
+  const double spring = GENERATE(0.0, 0.05);
+  if (points == 1 and spring > 0)
+    return;
+  const double growth = amplitude_growth(points, spring, 10000);
+  CAPTURE(points, spring, growth);
+  // 318 periods; the spring of layout quadrature is let go in each step, so it
+  // damps: 0.35 % and 0.5 %. Else the phase of the samples is what differs.
+  if (spring == 0)
+    CHECK(std::abs(growth) < 5e-4);
+  else
+    CHECK((growth < 0 and growth > -1e-2));
 }
 
 TEST_CASE("HHT damps a high mode and keeps the low one",
