@@ -251,7 +251,11 @@ double Monitor::energy(const std::string& quantity) const
     return turn * work.internal;
   if (quantity == "external_work")
     return turn * work.external;
-  const double kinetic = turn * _sim.problem->kinetic_energy(_sim.state);
+  // in statics v is no velocity
+  const auto& state = _sim.state;
+  const bool moves =
+      not state.a.empty() or (state.time == 0 and _sim.scene.stage[0].dynamics);
+  const double kinetic = moves ? turn * _sim.problem->kinetic_energy(state) : 0;
   return quantity == "kinetic_energy" ? kinetic
                                       : kinetic + turn * work.internal;
 }

@@ -36,7 +36,8 @@ struct State
   std::vector<double> a;      ///< acceleration, shape (n, 2) [m/s2]
   std::vector<double> force;  ///< residual less inertia, shape (n, 2) [N/m]
   std::vector<double> inner;  ///< its part from the cells, shape (n, 2) [N/m]
-  std::vector<double> p_rate; ///< dp/dt, with damping, shape (n) [Pa/s]
+  std::vector<double> p_rate; ///< dp/dt, with damping, NaN before the first
+                              ///< step, shape (n) [Pa/s]
   std::vector<double> held_back; ///< what an absorbing boundary carries at
                                  ///< rest, shape (n, 2) [N/m]
   Work work;

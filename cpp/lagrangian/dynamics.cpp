@@ -4,6 +4,7 @@
 
 #include "mesh/corners.h"
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace mmale::lagrangian
@@ -27,7 +28,8 @@ void Problem::begin_stage(State& state)
       v->assign(size, 0);
   }
   if (_newmark->scheme().damping_stiffness > 0 and state.p_rate.empty())
-    state.p_rate.assign(_domain.num_nodes(), 0);
+    state.p_rate.assign(_domain.num_nodes(),
+                        std::numeric_limits<double>::quiet_NaN());
   // An absorbing boundary goes on carrying what it carried at the end of
   // statics; what a dynamic stage makes it carry cannot be told from waves.
   int absorbing = not _conditions->absorbing_nodes().empty();
@@ -183,8 +185,6 @@ void Problem::rebalance(State& state, double t)
 
 double Problem::kinetic_energy(const State& state) const
 {
-  if (not _newmark)
-    return 0;
   const auto mass = mesh::lump(_domain, state.x, state.density,
                                _symmetry == scene::Symmetry::axisymmetric);
   double sum = 0;

@@ -2,6 +2,7 @@
 #include "newmark.h"
 
 #include "mesh/corners.h"
+#include <cmath>
 
 namespace mmale::lagrangian
 {
@@ -21,7 +22,9 @@ void Newmark::begin_step(const State& state, double dt)
   _mass = mesh::lump(_domain, state.x, state.density, _axisymmetric);
   c_a = is_explicit() ? 0 : 1 / (beta * dt * dt);
   c_v = is_explicit() ? 0 : gamma / (beta * dt);
-  c_r = 1 / (gamma * dt);
+  // no rate yet: the first step takes its mean, lest a wrong start swings on
+  const bool known = r_0.empty() or not std::isnan(state.p_rate[0]);
+  c_r = 1 / ((known ? gamma : 1) * dt);
   for (std::size_t i = 0; i < a_0.size(); ++i)
   {
     const double v = state.v[i], a = state.a[i];
@@ -32,7 +35,8 @@ void Newmark::begin_step(const State& state, double dt)
                  : v * (1 - gamma / beta) + a * dt * (1 - 0.5 * gamma / beta);
   }
   for (std::size_t n = 0; n < r_0.size(); ++n)
-    r_0[n] = -c_r * state.p[n] - (1 / gamma - 1) * state.p_rate[n];
+    r_0[n] =
+        -c_r * state.p[n] - (known ? (1 / gamma - 1) * state.p_rate[n] : 0);
 }
 
 void Newmark::freeze(const State& state)
@@ -41,8 +45,8 @@ void Newmark::freeze(const State& state)
   c_a = c_v = c_r = 0;
   a_0 = state.a;
   v_0 = state.v;
-  if (not r_0.empty())
-    r_0 = state.p_rate;
+  for (std::size_t n = 0; n < r_0.size(); ++n)
+    r_0[n] = std::isnan(state.p_rate[n]) ? 0 : state.p_rate[n];
 }
 
 double Newmark::foreseen(const State& state, int i) const

@@ -60,7 +60,7 @@ public:
   /// @param[in] t from the start of the stage [s]
   void rebalance(State& state, double t);
 
-  /// Kinetic energy of a dynamic stage, else 0 [J/m or J/rad]. Collective.
+  /// Kinetic energy, if the state's velocity is one [J/m or J/rad]. Collective.
   double kinetic_energy(const State& state) const;
 
   /// Find the end of a step; `state` is advanced only when this succeeds.
