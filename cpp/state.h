@@ -33,13 +33,15 @@ struct State
   std::map<std::string, std::vector<double>> tracer; ///< shape (m) each
 
   // of dynamic stages
-  std::vector<double> a;      ///< acceleration, shape (n, 2) [m/s2]
-  std::vector<double> force;  ///< residual less inertia, shape (n, 2) [N/m]
-  std::vector<double> inner;  ///< its part from the cells, shape (n, 2) [N/m]
-  std::vector<double> p_rate; ///< dp/dt, with damping, NaN before the first
-                              ///< step, shape (n) [Pa/s]
+  std::vector<double> a; ///< acceleration, shape (n, 2) [m/s2]
+  std::vector<double>
+      force; ///< residual less inertia, shape (n, 2) [N/m or N/rad]
+  std::vector<double>
+      inner; ///< its part from the cells, shape (n, 2) [N/m or N/rad]
+  std::vector<double> p_rate;    ///< dp/dt, with damping, NaN before the first
+                                 ///< step, shape (n) [Pa/s]
   std::vector<double> held_back; ///< what an absorbing boundary carries at
-                                 ///< rest, shape (n, 2) [N/m]
+                                 ///< rest, shape (n, 2) [N/m or N/rad]
   Work work;
 };
 

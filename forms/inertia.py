@@ -96,6 +96,6 @@ def operators(axisymmetric, name):
     return {f"{key}_{name}": form for key, form in made.items()}
 
 
-# FFCx finds the forms by their names here: R_plane, R_3_plane, ...
+# FFCx finds the forms by their names here: R_plane, R_damping_plane, ...
 globals().update(operators(False, "plane"), **operators(True, "axi"))
 forms = [form for key, form in globals().items() if key[:2] in ("R_", "J_", "B_")]

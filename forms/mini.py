@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The MINI element of METHOD.md, section 2, shared by all operators.
+"""The MINI element of METHOD.md, section 1, shared by all operators.
 
 A nodal block (ux, uy, p) on P1 plus a hierarchical cubic bubble (bx, by).
 Local unknowns: [ux uy p] of vertices 0, 1, 2, then bx, by; the solver condenses

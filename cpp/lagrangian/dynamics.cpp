@@ -27,7 +27,9 @@ void Problem::begin_stage(State& state)
     for (auto* v : {&state.a, &state.force, &state.inner})
       v->assign(size, 0);
   }
-  if (_newmark->scheme().damping_stiffness > 0 and state.p_rate.empty())
+  if (_newmark->scheme().damping_stiffness == 0)
+    state.p_rate.clear();
+  else if (state.p_rate.empty())
     state.p_rate.assign(_domain.num_nodes(),
                         std::numeric_limits<double>::quiet_NaN());
   // An absorbing boundary goes on carrying what it carried at the end of
@@ -40,12 +42,16 @@ void Problem::begin_stage(State& state)
     state.held_back.assign(size, 0);
   if (absorbing and from_statics)
   {
+    std::vector<double> moving(size, 0);
+    moving.swap(state.v); // what it carries at rest
     rebalance(state, 0);
+    moving.swap(state.v);
     for (int n : _conditions->absorbing_nodes())
       for (int i = 2 * n; i < 2 * n + 2; ++i)
         state.held_back[i] = -state.force[i];
   }
   rebalance(state, 0);
+  _gravity = _conditions->gravity(0); // the accelerations have met it
 }
 
 void Problem::begin_newmark(const State& state)
@@ -64,6 +70,8 @@ void Problem::add_inertia(std::span<double> force, double& size)
 {
   const auto z = _z.array();
   const double weight = _newmark->weight();
+  const double digits =
+      4 * std::numeric_limits<double>::epsilon() / _options.tolerance;
   for (int n = 0; n < _domain.num_owned_nodes; ++n)
     for (int d = 0; d < 2; ++d)
     {
@@ -76,7 +84,9 @@ void Problem::add_inertia(std::span<double> force, double& size)
       _total[i] = f;
       const double ma = m * _newmark->a(i, u);
       f = weight * f + (1 - weight) * _state->force[i] + ma;
-      size += ma * ma;
+      // in flight a is the difference of large numbers
+      const double lost = m * _newmark->c_a * u * digits;
+      size += ma * ma + lost * lost;
     }
 }
 

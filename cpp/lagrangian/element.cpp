@@ -36,8 +36,8 @@ bool Element::symmetric() const
 {
   if (_options.element == scene::Element::constant_strain)
     return false; // its nodal pressure only listens
-  // the mean layout's plastic bubble enters the volume equation alone, and the
-  // nodes' acceleration the bubble's
+  // layout mean: the plastic bubble enters the volume equation alone, and the
+  // nodes' acceleration only the bubble's
   const bool flows =
       _options.layout == scene::Layout::mean and _options.plastic_bubble;
   return not _newmark

@@ -22,9 +22,19 @@ void Newmark::begin_step(const State& state, double dt)
   _mass = mesh::lump(_domain, state.x, state.density, _axisymmetric);
   c_a = is_explicit() ? 0 : 1 / (beta * dt * dt);
   c_v = is_explicit() ? 0 : gamma / (beta * dt);
+  set_lines(state);
   // no rate yet: the first step takes its mean, lest a wrong start swings on
   const bool known = r_0.empty() or not std::isnan(state.p_rate[0]);
   c_r = 1 / ((known ? gamma : 1) * dt);
+  for (std::size_t n = 0; n < r_0.size(); ++n)
+    r_0[n] =
+        -c_r * state.p[n] - (known ? (1 / gamma - 1) * state.p_rate[n] : 0);
+}
+
+void Newmark::set_lines(const State& state)
+{
+  const double beta = _scheme.beta, gamma = _scheme.gamma, dt = _dt;
+  _held.assign(a_0.size(), false);
   for (std::size_t i = 0; i < a_0.size(); ++i)
   {
     const double v = state.v[i], a = state.a[i];
@@ -34,9 +44,6 @@ void Newmark::begin_step(const State& state, double dt)
                  ? v + (1 - gamma) * dt * a
                  : v * (1 - gamma / beta) + a * dt * (1 - 0.5 * gamma / beta);
   }
-  for (std::size_t n = 0; n < r_0.size(); ++n)
-    r_0[n] =
-        -c_r * state.p[n] - (known ? (1 / gamma - 1) * state.p_rate[n] : 0);
 }
 
 void Newmark::freeze(const State& state)
@@ -64,6 +71,7 @@ void Newmark::hold(const State& state, std::span<const int> holder,
         const double v = increment[z] / _dt;
         v_0[i] = v - c_v * increment[z];
         a_0[i] = (v - state.v[i]) / _dt - c_a * increment[z];
+        _held[i] = true;
       }
 }
 
@@ -77,8 +85,9 @@ void Newmark::finish(State& state, std::span<const double> z,
       const int i = 2 * n + d;
       const double u = z[3 * n + d];
       state.a[i] = is_explicit() ? explicit_a[i] : a(i, u);
-      state.v[i] =
-          v(i, u) + (is_explicit() ? _scheme.gamma * _dt * explicit_a[i] : 0);
+      state.v[i] = v(i, u);
+      if (is_explicit() and not _held[i])
+        state.v[i] += _scheme.gamma * _dt * explicit_a[i];
     }
     if (not r_0.empty())
       state.p_rate[n] = r_0[n] + c_r * z[3 * n + 2];

@@ -31,6 +31,9 @@ public:
   /// Collective.
   void begin_step(const State& state, double dt);
 
+  /// The lines of a step in which nothing is held.
+  void set_lines(const State& state);
+
   /// Masses, and lines that stand still at the state. Collective.
   void freeze(const State& state);
 
@@ -76,5 +79,6 @@ private:
   scene::Dynamics _scheme;
   double _dt = 0;
   std::vector<double> _mass;
+  std::vector<bool> _held; ///< shape (nodes, 2)
 };
 } // namespace mmale::lagrangian

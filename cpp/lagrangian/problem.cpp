@@ -118,9 +118,12 @@ void Problem::assemble_residual(double* r)
   auto force = _force.mutable_array();
   std::ranges::fill(force, 0.0);
   double size[3] = {0, 0, 0}; // squares: cell forces, strains, held increments
-  // strain of the pressure's last digits, as large as they may weigh
-  const double last_digits = 4 * std::numeric_limits<double>::epsilon()
-                             / (_element->bulk_modulus() * _options.tolerance);
+  // what last digits come to, as large as they may weigh: strains of the
+  // pressure at rest, and of the displacement in flight
+  const double last_digits =
+      4 * std::numeric_limits<double>::epsilon() / _options.tolerance;
+  const double of_p = last_digits / _element->bulk_modulus();
+  const double of_u = _newmark ? last_digits / _length : 0;
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
     double R[9];
@@ -135,10 +138,11 @@ void Problem::assemble_residual(double* r)
     // and what the cell brought along: a step may end without stress
     size[0] += _element->force_squared(*_state, c);
     const double V = _element->volume(c) / 3;
-    double p = 0;
+    double lost = 0;
     for (int n : nodes)
-      p += z[3 * n + 2] / 3;
-    const double lost = last_digits * p; // a body at rest has no other strain
+      lost += (of_p * std::abs(z[3 * n + 2])
+               + of_u * std::hypot(z[3 * n], z[3 * n + 1]))
+              / 3;
     size[1] += 3 * V * V * (1e-32 + lost * lost + _element->strain_squared(c));
   }
   _loads.add_residual(*_state, z, force);
@@ -243,6 +247,7 @@ void Problem::hold()
   _contact->apply(_state->x, _holder, _increment);
   if (not _newmark)
     return;
+  _newmark->set_lines(*_state);
   _newmark->hold(*_state, _holder, _increment);
   for (int i = 0; _newmark->is_explicit() and i < 3 * _domain.num_nodes(); ++i)
     if (i % 3 != 2 and _holder[i] < 0)
