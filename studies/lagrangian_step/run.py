@@ -251,7 +251,7 @@ def draw(rows):
         left.barh(y, time, height=0.7, color=colour, alpha=0.45)
         left.barh(y, solve, height=0.7, color=colour)
         left.text(
-            min(time, 0.45 * edge),
+            min(time, 0.61 * edge),
             y,
             f" {time:.2f} s, {float(r['iterations a step']):.1f} it"
             + ("" if r["outcome"] == "completed" else ", " + r["outcome"]),
