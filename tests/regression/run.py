@@ -366,8 +366,9 @@ def rotating_pulse_np(ranks):
 
 
 def thick_cylinder_np(ranks):
-    """One step, refined twice: Newton's tolerance of 1e-8."""
-    columns = {"u_a": 1e-12, "u_b": 1e-12, "hoop_a": 1e-8}
+    """One step, refined twice: Newton's tolerance of 1e-8. The stress is left out:
+    its point is a node, and round-off says which of its cells is taken."""
+    columns = {"u_a": 1e-12, "u_b": 1e-12}
     same_on(ranks, "thick_cylinder", ["mesh.refine=2"], columns)
 
 
