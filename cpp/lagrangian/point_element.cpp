@@ -283,18 +283,29 @@ void PointElement<n>::keep_blocks(Cell& cell, const double* A)
   cell.has_blocks = true;
 }
 
+/// Uncondensed residual, MINI order.
+template <int n>
+std::array<double, 11>
+PointElement<n>::residual_of(const State& state, int c,
+                             std::span<const double> z,
+                             const Constants& constants) const
+{
+  PointInput<n> in;
+  double x[9];
+  std::array<double, 11> R{};
+  gather(state, c, z, in, x);
+  _R(R, in, constants, x);
+  if (constants.b > 0)
+    _R_damping(R, in, constants, x);
+  return R;
+}
+
 template <int n>
 void PointElement<n>::residual(const State& state, int c,
                                std::span<const double> z,
                                const Constants& constants, double* R)
 {
-  PointInput<n> in;
-  double x[9], R11[11] = {};
-  gather(state, c, z, in, x);
-  _R(R11, in, constants, x);
-  if (constants.b > 0)
-    _R_damping(R11, in, constants, x);
-  std::copy_n(R11, 9, R);
+  std::copy_n(residual_of(state, c, z, constants).begin(), 9, R);
 }
 
 template <int n>
@@ -319,12 +330,7 @@ std::array<double, 6> PointElement<n>::forces(const State& state, int c,
                                               std::span<const double> z,
                                               const Constants& constants) const
 {
-  PointInput<n> in;
-  double x[9], R[11] = {};
-  gather(state, c, z, in, x);
-  _R(R, in, constants, x);
-  if (constants.b > 0)
-    _R_damping(R, in, constants, x);
+  const auto R = residual_of(state, c, z, constants);
   return {R[0], R[1], R[3], R[4], R[6], R[7]};
 }
 

@@ -82,6 +82,9 @@ private:
   void gather(const State& state, int cell, std::span<const double> z,
               PointInput<n>& in, double* x) const;
   void add_tangent(int cell, PointInput<n>& in) const;
+  std::array<double, 11> residual_of(const State& state, int c,
+                                     std::span<const double> z,
+                                     const Constants& constants) const;
   void tangent_of(const State& state, int c, std::span<const double> z,
                   const Constants& constants, double* A) const;
   void keep_blocks(Cell& cell, const double* A);

@@ -7,7 +7,6 @@ NAME_np_N run on N processes. Needs the standard library only.
 
 import ctypes
 import hashlib
-import json
 import os
 import random
 import re
@@ -19,6 +18,8 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+from common import finish, hold, ranked, summary
 
 PROGRAM, COMPARE, DEMOS = (Path(word).resolve() for word in sys.argv[1:4])
 WORK = Path()  # folder of this case
@@ -34,38 +35,14 @@ def scene():
 
 
 def command(path, results, *words, ranks=1):
-    start = ["mpirun", "-n", str(ranks), "--oversubscribe", "--bind-to", "none"]
-    start = start if ranks > 1 else []
-    return [
-        *start,
-        *(str(PROGRAM), "run", str(path), *words),
-        *("--results", str(WORK / results), "--quiet"),
-    ]
+    words = [*words, "--results", str(WORK / results), "--quiet"]
+    return ranked([str(PROGRAM), "run", str(path), *words], ranks)
 
 
 def run(path, results, *words, code=0, ranks=1, **options):
     """Run to the end; its folder and what it said."""
-    done = subprocess.run(
-        command(path, results, *words, ranks=ranks),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        **options,
-    )
-    if done.returncode != code:
-        sys.exit(f"exit code {done.returncode}, not {code}:\n{done.stdout}")
-    return WORK / results, done.stdout
-
-
-def hold(condition, what):
-    print(("holds: " if condition else "FAILS: ") + what, flush=True)
-    if not condition:
-        sys.exit(1)
-
-
-def summary(folder):
-    return json.loads((folder / "summary.json").read_text())
+    said = finish(command(path, results, *words, ranks=ranks), code, **options)
+    return WORK / results, said
 
 
 def rows(folder):

@@ -6,7 +6,6 @@ NAME_np_N compare N processes with one. Needs the standard library only.
 """
 
 import csv
-import json
 import math
 import re
 import shutil
@@ -17,6 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from common import finish, hold, ranked, summary
+
 PROGRAM, DEMOS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 LIMIT = (2 + math.pi) / math.sqrt(3)  # of the mean pressure over yield stress
 WORK = Path()  # folder of this case
@@ -25,34 +26,14 @@ WORK = Path()  # folder of this case
 def command(scene, *words, ranks=1):
     if not isinstance(scene, Path):
         scene = DEMOS / scene / "scene.toml"
-    start = ["mpirun", "-n", str(ranks), "--oversubscribe", "--bind-to", "none"]
-    start = start if ranks > 1 else []
-    return [*start, str(PROGRAM), "run", str(scene), *words, "--quiet"]
+    return ranked([str(PROGRAM), "run", str(scene), *words, "--quiet"], ranks)
 
 
 def run(scene, *words, code=0, ranks=1, results="results"):
     """Run to the end; its folder and what it said."""
     words = [*words, "--results", str(WORK / results)]
-    done = subprocess.run(
-        command(scene, *words, ranks=ranks),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    if done.returncode != code:
-        sys.exit(f"exit code {done.returncode}, not {code}:\n{done.stdout}")
-    return WORK / results, done.stdout
-
-
-def hold(condition, what):
-    print(("holds: " if condition else "FAILS: ") + what, flush=True)
-    if not condition:
-        sys.exit(1)
-
-
-def summary(folder):
-    return json.loads((folder / "summary.json").read_text())
+    said = finish(command(scene, *words, ranks=ranks), code)
+    return WORK / results, said
 
 
 def curves(folder):
