@@ -28,23 +28,19 @@ constexpr Moments swept(const Motion& m)
 }
 
 /// The parts of a swept region: one, or two of opposite signs if the region's
-/// outline crosses itself (a facet that turns about an inner point).
+/// outline crosses itself (a facet that turns about an inner point). A part
+/// that is not there has no volume.
 struct SweptParts
 {
   Moments part[2];
-  int count = 1;
 };
 
 /// Where the outline p0 q0 q1 p1 crosses itself.
 struct Crossing
 {
-  enum
-  {
-    none,
-    facets, ///< the facet before and the facet after cross: it turns
-    paths,  ///< the ways of its ends cross: it is turned over
-  } kind = none;
-  Point at;
+  bool facets; ///< the facet before and the facet after cross: it turns
+  bool paths;  ///< the ways of its ends cross: it is turned over
+  Point at;    ///< only if one of them does
 };
 
 inline Crossing crossing(const Motion& m)
@@ -56,11 +52,16 @@ inline Crossing crossing(const Motion& m)
   // Four products tell on which side of each line each other end lies.
   const double da = cross(d, a), db = cross(d, b);
   const double ea = cross(e, a), eb = cross(e, b);
-  if (da * db < 0 and ea * eb < 0)
-    return {Crossing::facets, m.p0 + (ea / (ea - eb)) * d};
-  if (da * ea < 0 and db * eb < 0)
-    return {Crossing::paths, m.p0 + (db / (db - eb)) * a};
-  return {};
+  // & and choices instead of branches: the motion cannot be foreseen.
+  const bool facets = (da * db < 0) & (ea * eb < 0);
+  const bool paths = (da * ea < 0) & (db * eb < 0);
+  const double above = facets ? ea : db;
+  const double below = facets ? ea - eb : db - da;
+  const double s = above / (facets | paths ? below : 1.0);
+  return {
+      facets,
+      paths,
+      {m.p0.x + s * (facets ? d.x : a.x), m.p0.y + s * (facets ? d.y : a.y)}};
 }
 
 /// Swept region, cut where its outline crosses itself, so that each part lies
@@ -69,22 +70,15 @@ inline Crossing crossing(const Motion& m)
 template <Geometry G>
 inline SweptParts swept_parts(const Motion& m)
 {
-  SweptParts out;
   const Moments all = swept<G>(m);
-  out.part[0] = all;
   const Crossing x = crossing(m);
-  if (x.kind == Crossing::none)
-    return out;
-  const Moments first = x.kind == Crossing::facets
-                            ? triangle<G>(m.p0, x.at, m.p1)
-                            : triangle<G>(m.p0, m.q0, x.at);
-  const Moments second = all - first;
-  if (not(first.v * second.v < 0))
-    return out;
-  out.part[0] = first;
-  out.part[1] = second;
-  out.count = 2;
-  return out;
+  const Point u = {x.facets ? x.at.x : m.q0.x, x.facets ? x.at.y : m.q0.y};
+  const Point w = {x.facets ? m.p1.x : x.at.x, x.facets ? m.p1.y : x.at.y};
+  const Moments first = triangle<G>(m.p0, u, w);
+  const bool two = (x.facets | x.paths) & (first.v * (all.v - first.v) < 0);
+  const Moments kept = {two ? first.v : all.v, two ? first.x : all.x,
+                        two ? first.y : all.y};
+  return {{kept, all - kept}};
 }
 
 /// Centroid of a part, held in the box around the motion: for slivers of

@@ -115,11 +115,10 @@ TEMPLATE_TEST_CASE("swept: parts of a region that crosses itself add up to it",
     const Motion m{draw(), draw(), draw(), draw()};
     const SweptParts parts = swept_parts<G>(m);
     const Moments all = swept<G>(m);
-    Moments sum = parts.part[0];
-    if (parts.count == 2)
+    const Moments sum = parts.part[0] + parts.part[1];
+    if (parts.part[1].v != 0)
     {
       ++cut;
-      sum += parts.part[1];
       CHECK(parts.part[0].v * parts.part[1].v < 0);
     }
     CHECK(sum.v == Approx(all.v).margin(4 * eps));
@@ -138,7 +137,6 @@ TEST_CASE(
   // its centroid at ±(2/3, 1/3).
   const Motion m{{-1, 0}, {1, 0}, {-1, -1}, {1, 1}};
   const SweptParts parts = swept_parts<Geometry::plane>(m);
-  REQUIRE(parts.count == 2);
   CHECK(std::abs(parts.part[0].v) == Approx(0.5).epsilon(4 * eps));
   CHECK(parts.part[0].v == Approx(-parts.part[1].v).epsilon(4 * eps));
   for (const Moments& part : parts.part)
