@@ -38,12 +38,13 @@ Remapper::Remapper(const Mesh& mesh, Options options)
   const Options& o = _options;
   const bool sides = looks_at_sides(o.scheme);
   const auto nodes = static_cast<std::size_t>(mesh.num_nodes());
-  _cells.reserve(mesh, sides, widest_block(o.cell_components));
+  _cells.reserve(mesh, sides, o.per_mass, widest_block(o.cell_components));
   if (o.point_components > 0)
   {
     const Mesh& fine = o.points->mesh();
     _points = std::make_unique<Points>();
-    _points->volumes.reserve(fine, sides, widest_block(o.point_components));
+    _points->volumes.reserve(fine, sides, false,
+                             widest_block(o.point_components));
     _points->x.resize(std::size_t(2) * fine.num_nodes());
     _points->y.resize(_points->x.size());
     _points->moved.resize(fine.num_nodes());
@@ -121,15 +122,14 @@ void Remapper::find_touched(std::span<const double> x_old,
   for (std::int32_t i : _moved_nodes)
     for (std::int32_t c : _mesh->node_cells()[i])
       _cells.touch(c);
-  // In the order of memory, whichever way they were found.
-  std::sort(_cells.touched.begin(), _cells.touched.end());
+  _cells.order();
   _cells.find_facets(_moved);
   if (_dual)
   {
     for (std::int32_t c : _cells.touched)
       for (std::int32_t i : _mesh->cell(c))
         _nodes.touch(i);
-    std::sort(_nodes.touched.begin(), _nodes.touched.end());
+    _nodes.order();
   }
   if (_fine)
     touch_points();

@@ -28,72 +28,126 @@ constexpr Moments swept(const Motion& m)
 }
 
 /// The parts of a swept region: one, or two of opposite signs if the region's
-/// outline crosses itself (a facet that turns about an inner point). A part
-/// that is not there has no volume.
+/// outline crosses itself (a facet that turns about an inner point, or is
+/// turned over), so that each part lies on one side and has one donor. A part
+/// that is not there has no volume. The parts add up to `swept` to round-off.
 struct SweptParts
 {
-  Moments part[2];
+  double v[2]; ///< volumes, positive when the left volume loses
+  Point at[2]; ///< centroids, held in the box around the motion: for slivers of
+               ///< round-off size the quotient of moment and volume means
+               ///< nothing
 };
 
-/// Where the outline p0 q0 q1 p1 crosses itself.
-struct Crossing
+namespace detail
 {
-  bool facets; ///< the facet before and the facet after cross: it turns
-  bool paths;  ///< the ways of its ends cross: it is turned over
-  Point at;    ///< only if one of them does
-};
+/// Volume and first moments, from (0, 0), of the triangle 0, a, b with twice
+/// the area `area2`; r is the first coordinate of the origin.
+template <Geometry G>
+constexpr Moments triangle_at(double area2, Point a, Point b,
+                              [[maybe_unused]] double r)
+{
+  const double third = area2 / 6;
+  const Point s = a + b;
+  const Moments flat = {0.5 * area2, third * s.x, third * s.y};
+  if constexpr (G == Geometry::plane)
+    return flat;
+  else
+  {
+    const double twelfth = area2 / 24;
+    return {r * flat.v + flat.x,
+            r * flat.x + twelfth * (s.x * s.x + a.x * a.x + b.x * b.x),
+            r * flat.y + twelfth * (s.x * s.y + a.x * a.y + b.x * b.y)};
+  }
+}
 
-inline Crossing crossing(const Motion& m)
+/// Centroid from the origin, held between lo and hi.
+constexpr Point held(const Moments& m, Point lo, Point hi)
+{
+  const double inverse = 1 / (m.v != 0 ? m.v : 1.0);
+  return {std::min(std::max(m.x * inverse, lo.x), hi.x),
+          std::min(std::max(m.y * inverse, lo.y), hi.y)};
+}
+
+constexpr Point least(Point a, Point b)
+{
+  return {std::min(a.x, b.x), std::min(a.y, b.y)};
+}
+constexpr Point most(Point a, Point b)
+{
+  return {std::max(a.x, b.x), std::max(a.y, b.y)};
+}
+} // namespace detail
+
+/// See SweptParts. Without branches, because the motion cannot be foreseen, and
+/// so that a loop over facets becomes vector instructions.
+template <Geometry G>
+constexpr SweptParts swept_parts(const Motion& m)
 {
   const Point d = m.q0 - m.p0; // facet before
-  const Point e = m.q1 - m.p1; // and after
   const Point a = m.p1 - m.p0; // way of p
-  const Point b = m.q1 - m.q0; // and of q
+  const Point c = m.q1 - m.p0; // diagonal
+  const Point e = c - a;       // facet after
+  const Point b = c - d;       // way of q
   // Four products tell on which side of each line each other end lies.
   const double da = cross(d, a), db = cross(d, b);
   const double ea = cross(e, a), eb = cross(e, b);
-  // & and choices instead of branches: the motion cannot be foreseen.
-  const bool facets = (da * db < 0) & (ea * eb < 0);
-  const bool paths = (da * ea < 0) & (db * eb < 0);
+  const bool facets = (da * db < 0) & (ea * eb < 0); // they cross: it turns
+  const bool paths = (da * ea < 0) & (db * eb < 0);  // it is turned over
   const double above = facets ? ea : db;
-  const double below = facets ? ea - eb : db - da;
+  const double below = facets ? ea - eb : db - eb;
   const double s = above / (facets | paths ? below : 1.0);
-  return {
-      facets,
-      paths,
-      {m.p0.x + s * (facets ? d.x : a.x), m.p0.y + s * (facets ? d.y : a.y)}};
-}
 
-/// Swept region, cut where its outline crosses itself, so that each part lies
-/// on one side and has one donor. The parts add up to `swept` to the last bit
-/// but one: the second is the whole less the first.
-template <Geometry G>
-inline SweptParts swept_parts(const Motion& m)
-{
-  const Moments all = swept<G>(m);
-  const Crossing x = crossing(m);
-  const Point u = {x.facets ? x.at.x : m.q0.x, x.facets ? x.at.y : m.q0.y};
-  const Point w = {x.facets ? m.p1.x : x.at.x, x.facets ? m.p1.y : x.at.y};
-  const Moments first = triangle<G>(m.p0, u, w);
-  const bool two = (x.facets | x.paths) & (first.v * (all.v - first.v) < 0);
+  const Moments all = detail::triangle_at<G>(db, d, c, m.p0.x)
+                      + detail::triangle_at<G>(ea, c, a, m.p0.x);
+  // From p0 to where the facets, or the paths, cross.
+  const Point u = {facets ? s * d.x : d.x, facets ? s * d.y : d.y};
+  const Point w = {facets ? a.x : s * a.x, facets ? a.y : s * a.y};
+  const Moments first = detail::triangle_at<G>(s * da, u, w, m.p0.x);
+  const bool two = (facets | paths) & (first.v * (all.v - first.v) < 0);
   const Moments kept = {two ? first.v : all.v, two ? first.x : all.x,
                         two ? first.y : all.y};
-  return {{kept, all - kept}};
+  const Moments rest = {two ? all.v - first.v : 0.0,
+                        two ? all.x - first.x : 0.0,
+                        two ? all.y - first.y : 0.0};
+  const Point lo = detail::least(detail::least({}, d), detail::least(a, c));
+  const Point hi = detail::most(detail::most({}, d), detail::most(a, c));
+  return {
+      {kept.v, rest.v},
+      {m.p0 + detail::held(kept, lo, hi), m.p0 + detail::held(rest, lo, hi)}};
 }
 
-/// Centroid of a part, held in the box around the motion: for slivers of
-/// round-off size the quotient of moment and volume means nothing.
-inline Point centroid_in(const Moments& part, const Motion& m)
+/// Motions of many facets, taken together.
+struct SweptBatch
 {
-  // Pairwise, so that no branch is taken.
-  const auto hold = [](double v, double a, double b, double c, double d)
+  static constexpr int room = 64;
+  int count = 0;
+  double p0x[room], p0y[room], q0x[room], q0y[room];
+  double p1x[room], p1y[room], q1x[room], q1y[room];
+  double v[2][room], x[2][room], y[2][room]; ///< parts, see SweptParts
+
+  void add(const Motion& m)
   {
-    const double lo = std::min(std::min(a, b), std::min(c, d));
-    const double hi = std::max(std::max(a, b), std::max(c, d));
-    return std::min(std::max(v, lo), hi);
-  };
-  const Point c = part.centroid();
-  return {hold(c.x, m.p0.x, m.q0.x, m.p1.x, m.q1.x),
-          hold(c.y, m.p0.y, m.q0.y, m.p1.y, m.q1.y)};
-}
+    p0x[count] = m.p0.x, p0y[count] = m.p0.y;
+    q0x[count] = m.q0.x, q0y[count] = m.q0.y;
+    p1x[count] = m.p1.x, p1y[count] = m.p1.y;
+    q1x[count] = m.q1.x, q1y[count] = m.q1.y;
+    ++count;
+  }
+
+  template <Geometry G>
+  void sweep()
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      const SweptParts parts = swept_parts<G>({{p0x[k], p0y[k]},
+                                               {q0x[k], q0y[k]},
+                                               {p1x[k], p1y[k]},
+                                               {q1x[k], q1y[k]}});
+      v[0][k] = parts.v[0], v[1][k] = parts.v[1];
+      x[0][k] = parts.at[0].x, x[1][k] = parts.at[1].x;
+      y[0][k] = parts.at[0].y, y[1][k] = parts.at[1].y;
+    }
+  }
+};
 } // namespace remap

@@ -49,23 +49,26 @@ inline std::size_t outer_facets(const Mesh& mesh)
 struct CellVolumes : ControlVolumes
 {
   const Mesh* mesh = nullptr;
-  Adjacency sides;                  ///< empty if no limiter looks there
-  std::vector<std::int32_t> facets; ///< that sweep, in the cells' order
-  /// First piece of each of `facets` and the one after its last, among the
-  /// inner or, on the boundary, the outer ones.
-  std::vector<Pair> pieces_of;
+  Adjacency across; ///< empty if no limiter looks there
+  /// Facets that sweep, in the cells' order: between cells, on the boundary.
+  std::vector<std::int32_t> facets, boundary;
 
-  void reserve(const Mesh& of, bool with_sides, int components)
+  /// @param[in] with_sides  does a limiter look across facets?
+  /// @param[in] with_pieces will `split` be asked for?
+  void reserve(const Mesh& of, bool with_sides, bool with_pieces,
+               int components)
   {
     mesh = &of;
     if (with_sides)
-      sides = sides_of(of);
+      across = sides_of(of);
     const std::size_t outer = outer_facets(of);
     const auto all = static_cast<std::size_t>(of.num_facets());
-    ControlVolumes::reserve(of.cell_cells(), sides, of.owned_cells(),
+    ControlVolumes::reserve(of.cell_cells(), across, of.owned_cells(),
                             all - outer, outer, components);
-    facets.reserve(all);
-    pieces_of.resize(all);
+    facets.reserve(all - outer);
+    boundary.reserve(outer);
+    if (with_pieces)
+      pieces_of.resize(all - outer);
   }
 
   /// The list of facets that sweep: an end moved, and a cell beside is ours.
@@ -73,6 +76,7 @@ struct CellVolumes : ControlVolumes
   void find_facets(std::span<const std::uint8_t> moved)
   {
     facets.clear();
+    boundary.clear();
     for (std::int32_t c : touched)
       for (std::int32_t f : mesh->cell_facets(c))
       {
@@ -82,7 +86,7 @@ struct CellVolumes : ControlVolumes
         // enough.
         if (left == c and (moved[p] or moved[q])
             and (left < owned or (right >= 0 and right < owned)))
-          facets.push_back(f);
+          (right < 0 ? boundary : facets).push_back(f);
       }
   }
 
@@ -110,20 +114,19 @@ struct CellVolumes : ControlVolumes
   void sweep_all(std::span<const double> x, std::span<const double> y)
   {
     drop_pieces();
-    std::size_t k = 0;
+    const auto motion = [&](std::int32_t f) -> Motion
+    {
+      const auto [p, q] = mesh->facet(f);
+      return {point(x, p), point(x, q), point(y, p), point(y, q)};
+    };
     for (std::int32_t f : facets)
     {
       const auto [left, right] = mesh->facet_cells(f);
-      const auto [p, q] = mesh->facet(f);
-      const Motion m = {point(x, p), point(x, q), point(y, p), point(y, q)};
-      const std::size_t& count = right < 0 ? outer.count : inner.count;
-      pieces_of[k][0] = static_cast<std::int32_t>(count);
-      if (right < 0)
-        sweep_boundary<G>(m, left, mesh->marker(f));
-      else
-        sweep<G>(m, left, right);
-      pieces_of[k++][1] = static_cast<std::int32_t>(count);
+      sweep<G>(motion(f), left, right);
     }
+    flush<G>();
+    for (std::int32_t f : boundary)
+      sweep_boundary<G>(motion(f), mesh->facet_cells(f)[0], f, mesh->marker(f));
     settle_pieces();
   }
 
@@ -140,26 +143,32 @@ struct CellVolumes : ControlVolumes
              std::span<const double> amount_outer,
              std::span<double> passing) const
   {
-    for (std::size_t k = 0; k < facets.size(); ++k)
+    // Part of a piece that is on the side of the facet's first end.
+    const auto first = [&](std::int32_t f, Point at)
     {
-      const std::int32_t f = facets[k];
-      const auto [left, right] = mesh->facet_cells(f);
       const auto [p, q] = mesh->facet(f);
       const Point a = middle(point(x, p), point(y, p));
       const Point along = middle(point(x, q), point(y, q)) - a;
-      const Pieces& pieces = right < 0 ? outer : inner;
-      const auto amount = right < 0 ? amount_outer : amount_inner;
-      double* out = &passing[std::size_t(2) * f];
-      out[0] = out[1] = 0;
+      return 0.5 - 1.5 * (dot(at - a, along) / dot(along, along) - 0.5);
+    };
+    const auto add = [&](std::int32_t f, double amount, Point at)
+    {
+      const double part = first(f, at);
+      passing[std::size_t(2) * f] += part * amount;
+      passing[std::size_t(2) * f + 1] += (1 - part) * amount;
+    };
+    for (const auto* list : {&facets, &boundary})
+      for (std::int32_t f : *list)
+        passing[std::size_t(2) * f] = passing[std::size_t(2) * f + 1] = 0;
+    for (std::size_t k = 0; k < facets.size(); ++k)
       for (std::int32_t i = pieces_of[k][0]; i < pieces_of[k][1]; ++i)
-      {
-        const double at = dot(pieces.at[i] - a, along) / dot(along, along);
-        const double all = pieces.from[i] == left ? amount[i] : -amount[i];
-        const double first = 0.5 - 1.5 * (at - 0.5);
-        out[0] += first * all;
-        out[1] += (1 - first) * all;
-      }
-    }
+        add(facets[k],
+            inner.from[i] == mesh->facet_cells(facets[k])[0] ? amount_inner[i]
+                                                             : -amount_inner[i],
+            inner.at[i]);
+    for (std::size_t i = 0; i < outer.count; ++i)
+      add(facet[i], outer.from[i] >= 0 ? amount_outer[i] : -amount_outer[i],
+          outer.at[i]);
   }
 
   /// Global number of one of our cells without positive volume, or -1.

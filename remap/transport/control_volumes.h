@@ -10,6 +10,8 @@
 #include "remap/geometry/swept.h"
 #include "remap/mesh.h"
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace remap
@@ -34,12 +36,13 @@ struct Pieces
 };
 
 /// Swept volume below which round-off speaks, not motion.
+/// @param[in] e facet
+/// @param[in] r larger radius of its ends
 template <Geometry G>
-double sliver(const Motion& m)
+double sliver(Point e, double r)
 {
-  const Point e = m.q0 - m.p0;
   const double area = 1e-13 * dot(e, e);
-  return G == Geometry::plane ? area : area * std::max(m.p0.x, m.q0.x);
+  return G == Geometry::plane ? area : area * r;
 }
 
 /// Geometry and room for a set of volumes.
@@ -59,6 +62,13 @@ struct ControlVolumes
   Pieces inner;                     ///< between two volumes
   Pieces outer;                     ///< with one end outside
   std::vector<std::int32_t> marker; ///< of the boundary facet of outer pieces
+  std::vector<std::int32_t> facet;  ///< that swept each outer piece
+  /// First inner piece and the one after the last of each facet in the order of
+  /// `sweep`; empty if nobody asks.
+  std::vector<Pair> pieces_of;
+  std::size_t num_swept = 0;                ///< facets so far
+  SweptBatch batch;                         ///< facets that wait
+  std::array<Pair, SweptBatch::room> sides; ///< volumes beside them
 
   std::vector<std::int32_t> touched; ///< volumes that change
   std::vector<std::int32_t> ring;    ///< neighbours of ours among them
@@ -94,6 +104,7 @@ struct ControlVolumes
     inner.reserve(2 * num_inner + 2);
     outer.reserve(2 * num_outer + 2);
     marker.resize(2 * num_outer + 2);
+    facet.resize(2 * num_outer + 2);
     touched.reserve(num);
     ring.reserve(num);
     const std::size_t size = std::size_t(num) * components;
@@ -112,6 +123,18 @@ struct ControlVolumes
       mark[i] = 1;
       touched.push_back(i);
     }
+  }
+
+  /// Volumes that change in the order of memory, whichever way they were found.
+  void order()
+  {
+    // Sorting is dearer than looking at all once they are many.
+    if (touched.size() * 16 < static_cast<std::size_t>(num))
+      return std::sort(touched.begin(), touched.end());
+    touched.clear();
+    for (std::int32_t i = 0; i < num; ++i)
+      if (mark[i] == 1)
+        touched.push_back(i);
   }
 
   /// Collect so many rings around the volumes that change.
@@ -149,7 +172,7 @@ struct ControlVolumes
   /// Start a sub-cycle: no pieces yet.
   void drop_pieces()
   {
-    inner.count = outer.count = 0;
+    inner.count = outer.count = num_swept = 0;
     for (std::int32_t i : touched)
     {
       leaving[i] = 0;
@@ -177,58 +200,79 @@ struct ControlVolumes
 
   /// Add a region that comes from outside (from = -1) or goes there.
   void pass(std::int32_t from, std::int32_t to, double v, Point at,
-            std::int32_t boundary)
+            std::int32_t over, std::int32_t boundary)
   {
     const std::size_t k = outer.count++;
     outer.from[k] = from;
     outer.to[k] = to;
     outer.volume[k] = v;
     outer.at[k] = at;
+    facet[k] = over;
     marker[k] = boundary;
     if (from >= 0)
       leave(from, v, at);
   }
 
-  /// Add the region swept by a facet between two volumes. No branch depends on
-  /// the motion: which way it goes, and whether its outline crosses itself,
-  /// cannot be foreseen.
+  /// Add the region swept by a facet between two volumes, with others of its
+  /// kind: see `flush`.
   template <Geometry G>
   void sweep(const Motion& m, std::int32_t left, std::int32_t right)
   {
-    const SweptParts parts = swept_parts<G>(m);
-    const double least = sliver<G>(m);
-    for (const Moments& part : parts.part)
-    {
-      const bool out = part.v > 0;
-      const std::int32_t from = out ? left : right;
-      const double v = out ? part.v : -part.v;
-      const Point own = centroid[from];
-      // Of round-off size: the centroid means nothing and must not limit a
-      // gradient. Such a piece carries the mean.
-      const Point c = centroid_in(part, m);
-      const Point at = {v > least ? c.x : own.x, v > least ? c.y : own.y};
-      const std::size_t k = inner.count;
-      inner.from[k] = from;
-      inner.to[k] = out ? right : left;
-      inner.volume[k] = v;
-      inner.at[k] = at;
-      inner.count += v > 0 ? 1 : 0;
-      leave(from, v, at);
-    }
+    if (batch.count == SweptBatch::room)
+      flush<G>();
+    sides[batch.count] = {left, right};
+    batch.add(m);
   }
 
-  /// Add the region swept by a facet on the boundary.
+  /// Pieces of all facets given to `sweep` since the last call, in their order.
+  /// No branch depends on the motion.
   template <Geometry G>
-  void sweep_boundary(const Motion& m, std::int32_t i, std::int32_t boundary)
+  void flush()
+  {
+    batch.sweep<G>();
+    for (int k = 0; k < batch.count; ++k)
+    {
+      const Point e = {batch.q0x[k] - batch.p0x[k],
+                       batch.q0y[k] - batch.p0y[k]};
+      const double least = sliver<G>(e, std::max(batch.p0x[k], batch.q0x[k]));
+      const auto [left, right] = sides[k];
+      const auto start = static_cast<std::int32_t>(inner.count);
+      for (int part = 0; part < 2; ++part)
+      {
+        const bool out = batch.v[part][k] > 0;
+        const std::int32_t from = out ? left : right;
+        const double v = std::abs(batch.v[part][k]);
+        const Point own = centroid[from];
+        // Of round-off size: the centroid means nothing and must not limit a
+        // gradient. Such a piece carries the mean.
+        const Point at = {v > least ? batch.x[part][k] : own.x,
+                          v > least ? batch.y[part][k] : own.y};
+        const std::size_t p = inner.count;
+        inner.from[p] = from;
+        inner.to[p] = out ? right : left;
+        inner.volume[p] = v;
+        inner.at[p] = at;
+        inner.count += v > 0 ? 1 : 0;
+        leave(from, v, at);
+      }
+      if (not pieces_of.empty())
+        pieces_of[num_swept++] = {start,
+                                  static_cast<std::int32_t>(inner.count)};
+    }
+    batch.count = 0;
+  }
+
+  /// Add the region swept by a facet on the boundary, with its marker.
+  template <Geometry G>
+  void sweep_boundary(const Motion& m, std::int32_t i, std::int32_t over,
+                      std::int32_t boundary)
   {
     const SweptParts parts = swept_parts<G>(m);
-    for (const Moments& part : parts.part)
-      if (part.v > 0)
-        pass(i, -1, part.v,
-             part.v > sliver<G>(m) ? centroid_in(part, m) : centroid[i],
-             boundary);
-      else if (part.v < 0)
-        pass(-1, i, -part.v, centroid_in(part, m), boundary);
+    const double least = sliver<G>(m.q0 - m.p0, std::max(m.p0.x, m.q0.x));
+    for (int k = 0; k < 2; ++k)
+      if (const double v = std::abs(parts.v[k]); v > 0)
+        pass(parts.v[k] > 0 ? i : -1, parts.v[k] > 0 ? -1 : i, v,
+             v > least ? parts.at[k] : centroid[i], over, boundary);
   }
 
   /// All pieces are there: find the centroids of what remains.

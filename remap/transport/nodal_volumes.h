@@ -83,6 +83,7 @@ struct NodalVolumes : ControlVolumes
     drop_pieces();
     for (std::int32_t c : cells)
       sweep_cell<G>(c, moved, x, y);
+    flush<G>();
     settle_pieces();
   }
 
@@ -164,9 +165,9 @@ private:
       const Point m1 = middle(after.v[i], after.v[j]);
       const std::int32_t boundary = mesh->marker(f);
       if (n[i] < owned)
-        sweep_boundary<G>({before.v[i], m0, after.v[i], m1}, n[i], boundary);
+        sweep_boundary<G>({before.v[i], m0, after.v[i], m1}, n[i], f, boundary);
       if (n[j] < owned)
-        sweep_boundary<G>({m0, before.v[j], m1, after.v[j]}, n[j], boundary);
+        sweep_boundary<G>({m0, before.v[j], m1, after.v[j]}, n[j], f, boundary);
     }
   }
 
@@ -217,12 +218,13 @@ private:
     exchange(m > 0 ? a : b, m > 0 ? b : a, std::abs(m), at);
   }
 
-  void give_out(std::int32_t i, double m, Point at, std::int32_t boundary)
+  void give_out(std::int32_t i, double m, Point at, std::int32_t over,
+                std::int32_t boundary)
   {
     if (m == 0 or i >= owned)
       return;
     next[i] -= m;
-    pass(m > 0 ? i : -1, m > 0 ? -1 : i, std::abs(m), at, boundary);
+    pass(m > 0 ? i : -1, m > 0 ? -1 : i, std::abs(m), at, over, boundary);
   }
 
   void exchange_cell(std::int32_t c, std::span<const std::uint8_t> moved,
@@ -243,8 +245,8 @@ private:
       const Point a = middle(before.v[i], after.v[i]);
       const Point b = middle(before.v[j], after.v[j]);
       const std::int32_t boundary = mesh->marker(f);
-      give_out(n[i], out[3 + 2 * i], 0.75 * a + 0.25 * b, boundary);
-      give_out(n[j], out[4 + 2 * i], 0.25 * a + 0.75 * b, boundary);
+      give_out(n[i], out[3 + 2 * i], 0.75 * a + 0.25 * b, f, boundary);
+      give_out(n[j], out[4 + 2 * i], 0.25 * a + 0.75 * b, f, boundary);
     }
   }
 };
