@@ -42,79 +42,95 @@ struct SweptParts
 namespace detail
 {
 /// Volume and first moments, from (0, 0), of the triangle 0, a, b with twice
-/// the area `area2`; r is the first coordinate of the origin.
+/// the area `area2`; r is the first coordinate of the origin. In plain numbers:
+/// only of these compilers make vector instructions.
 template <Geometry G>
-constexpr Moments triangle_at(double area2, Point a, Point b,
-                              [[maybe_unused]] double r)
+[[gnu::always_inline]] constexpr void
+triangle_at(double area2, double ax, double ay, double bx, double by,
+            [[maybe_unused]] double r, double& v, double& x, double& y)
 {
-  const double third = area2 / 6;
-  const Point s = a + b;
-  const Moments flat = {0.5 * area2, third * s.x, third * s.y};
-  if constexpr (G == Geometry::plane)
-    return flat;
-  else
+  const double sx = ax + bx, sy = ay + by;
+  v = 0.5 * area2;
+  x = area2 * (1.0 / 6) * sx;
+  y = area2 * (1.0 / 6) * sy;
+  if constexpr (G == Geometry::axisymmetric)
   {
-    const double twelfth = area2 / 24;
-    return {r * flat.v + flat.x,
-            r * flat.x + twelfth * (s.x * s.x + a.x * a.x + b.x * b.x),
-            r * flat.y + twelfth * (s.x * s.y + a.x * a.y + b.x * b.y)};
+    const double t = area2 * (1.0 / 24);
+    const double flat = v, fx = x, fy = y;
+    v = r * flat + fx;
+    x = r * fx + t * (sx * sx + ax * ax + bx * bx);
+    y = r * fy + t * (sx * sy + ax * ay + bx * by);
   }
 }
 
-/// Centroid from the origin, held between lo and hi.
-constexpr Point held(const Moments& m, Point lo, Point hi)
+// By value: std::min's references keep loops from becoming vector instructions.
+[[gnu::always_inline]] constexpr double lesser(double a, double b)
 {
-  const double inverse = 1 / (m.v != 0 ? m.v : 1.0);
-  return {std::min(std::max(m.x * inverse, lo.x), hi.x),
-          std::min(std::max(m.y * inverse, lo.y), hi.y)};
+  return a < b ? a : b;
+}
+[[gnu::always_inline]] constexpr double greater(double a, double b)
+{
+  return a > b ? a : b;
 }
 
-constexpr Point least(Point a, Point b)
+/// Between the least and the largest of 0, a, b, c.
+[[gnu::always_inline]] constexpr double held(double value, double a, double b,
+                                             double c)
 {
-  return {std::min(a.x, b.x), std::min(a.y, b.y)};
+  const double lo = lesser(lesser(0.0, a), lesser(b, c));
+  const double hi = greater(greater(0.0, a), greater(b, c));
+  return lesser(greater(value, lo), hi);
 }
-constexpr Point most(Point a, Point b)
-{
-  return {std::max(a.x, b.x), std::max(a.y, b.y)};
-}
-} // namespace detail
 
-/// See SweptParts. Without branches, because the motion cannot be foreseen, and
-/// so that a loop over facets becomes vector instructions.
+/// `swept_parts` in plain numbers: ends p0, q0 before and p1, q1 after in, two
+/// volumes and centroids out. Without branches, because the motion cannot be
+/// foreseen, and so that a loop over facets becomes vector instructions.
 template <Geometry G>
-constexpr SweptParts swept_parts(const Motion& m)
+[[gnu::always_inline]] constexpr void
+swept_parts(double p0x, double p0y, double q0x, double q0y, double p1x,
+            double p1y, double q1x, double q1y, double (&v)[2], double (&x)[2],
+            double (&y)[2])
 {
-  const Point d = m.q0 - m.p0; // facet before
-  const Point a = m.p1 - m.p0; // way of p
-  const Point c = m.q1 - m.p0; // diagonal
-  const Point e = c - a;       // facet after
-  const Point b = c - d;       // way of q
+  // From p0: facet before d, way of p a, diagonal c; facet after e, way of q b.
+  const double dx = q0x - p0x, dy = q0y - p0y;
+  const double ax = p1x - p0x, ay = p1y - p0y;
+  const double cx = q1x - p0x, cy = q1y - p0y;
+  const double ex = cx - ax, ey = cy - ay;
+  const double bx = cx - dx, by = cy - dy;
   // Four products tell on which side of each line each other end lies.
-  const double da = cross(d, a), db = cross(d, b);
-  const double ea = cross(e, a), eb = cross(e, b);
+  const double da = dx * ay - dy * ax, db = dx * by - dy * bx;
+  const double ea = ex * ay - ey * ax, eb = ex * by - ey * bx;
   const bool facets = (da * db < 0) & (ea * eb < 0); // they cross: it turns
   const bool paths = (da * ea < 0) & (db * eb < 0);  // it is turned over
   const double above = facets ? ea : db;
-  const double below = facets ? ea - eb : db - eb;
-  const double s = above / (facets | paths ? below : 1.0);
+  const double s = above / (facets | paths ? above - eb : 1.0);
+  double v0, x0, y0, v1, x1, y1, v2, x2, y2;
+  triangle_at<G>(db, dx, dy, cx, cy, p0x, v0, x0, y0);
+  triangle_at<G>(ea, cx, cy, ax, ay, p0x, v1, x1, y1);
+  v0 += v1, x0 += x1, y0 += y1;
+  // The triangle from p0 to where the facets, or the paths, cross.
+  const double sd = facets ? s : 1.0, sa = facets ? 1.0 : s;
+  triangle_at<G>(s * da, sd * dx, sd * dy, sa * ax, sa * ay, p0x, v2, x2, y2);
+  const bool two = (facets | paths) & (v2 * (v0 - v2) < 0);
+  v[0] = two ? v2 : v0;
+  v[1] = two ? v0 - v2 : 0.0;
+  const double over0 = 1 / (v[0] != 0 ? v[0] : 1.0);
+  const double over1 = 1 / (v[1] != 0 ? v[1] : 1.0);
+  x[0] = p0x + held((two ? x2 : x0) * over0, dx, ax, cx);
+  y[0] = p0y + held((two ? y2 : y0) * over0, dy, ay, cy);
+  x[1] = p0x + held((x0 - x2) * over1, dx, ax, cx);
+  y[1] = p0y + held((y0 - y2) * over1, dy, ay, cy);
+}
+} // namespace detail
 
-  const Moments all = detail::triangle_at<G>(db, d, c, m.p0.x)
-                      + detail::triangle_at<G>(ea, c, a, m.p0.x);
-  // From p0 to where the facets, or the paths, cross.
-  const Point u = {facets ? s * d.x : d.x, facets ? s * d.y : d.y};
-  const Point w = {facets ? a.x : s * a.x, facets ? a.y : s * a.y};
-  const Moments first = detail::triangle_at<G>(s * da, u, w, m.p0.x);
-  const bool two = (facets | paths) & (first.v * (all.v - first.v) < 0);
-  const Moments kept = {two ? first.v : all.v, two ? first.x : all.x,
-                        two ? first.y : all.y};
-  const Moments rest = {two ? all.v - first.v : 0.0,
-                        two ? all.x - first.x : 0.0,
-                        two ? all.y - first.y : 0.0};
-  const Point lo = detail::least(detail::least({}, d), detail::least(a, c));
-  const Point hi = detail::most(detail::most({}, d), detail::most(a, c));
-  return {
-      {kept.v, rest.v},
-      {m.p0 + detail::held(kept, lo, hi), m.p0 + detail::held(rest, lo, hi)}};
+/// See SweptParts.
+template <Geometry G>
+constexpr SweptParts swept_parts(const Motion& m)
+{
+  double v[2], x[2], y[2];
+  detail::swept_parts<G>(m.p0.x, m.p0.y, m.q0.x, m.q0.y, m.p1.x, m.p1.y, m.q1.x,
+                         m.q1.y, v, x, y);
+  return {{v[0], v[1]}, {{x[0], y[0]}, {x[1], y[1]}}};
 }
 
 /// Motions of many facets, taken together.
@@ -136,18 +152,6 @@ struct SweptBatch
   }
 
   template <Geometry G>
-  void sweep()
-  {
-    for (int k = 0; k < count; ++k)
-    {
-      const SweptParts parts = swept_parts<G>({{p0x[k], p0y[k]},
-                                               {q0x[k], q0y[k]},
-                                               {p1x[k], p1y[k]},
-                                               {q1x[k], q1y[k]}});
-      v[0][k] = parts.v[0], v[1][k] = parts.v[1];
-      x[0][k] = parts.at[0].x, x[1][k] = parts.at[1].x;
-      y[0][k] = parts.at[0].y, y[1][k] = parts.at[1].y;
-    }
-  }
+  void sweep();
 };
 } // namespace remap
