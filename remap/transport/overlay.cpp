@@ -113,9 +113,21 @@ Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh)
       const auto [left, right] = mesh.facet_cells(mesh.cell_facets(c)[k]);
       _beside[c][k] = left == c ? right : left;
     }
+  // Around the nodes of our cells all cells are here. Elsewhere a facet with
+  // one cell is known to be the outline by its marker only.
+  std::vector<std::uint8_t> complete(mesh.num_nodes());
+  for (std::int32_t c = 0; c < mesh.owned_cells(); ++c)
+    for (std::int32_t i : mesh.cell(c))
+      complete[i] = 1;
+  _is_outline.assign(mesh.num_facets(), 0);
   for (std::int32_t f = 0; f < mesh.num_facets(); ++f)
-    if (mesh.on_boundary(f))
+    if (const auto [a, b] = mesh.facet(f);
+        mesh.facet_cells(f)[1] < 0
+        and (complete[a] != 0 or complete[b] != 0 or mesh.marker(f) >= 0))
+    {
+      _is_outline[f] = 1;
       _outline.push_back(f);
+    }
   _is_touched.assign(n, 0);
   _seen.assign(n, 0);
   _slot.assign(n, -1);
@@ -378,7 +390,7 @@ Overlay::Edge Overlay::edge_inside(const Side& through, std::int32_t c,
     const std::int32_t f = _mesh->cell_facets(c)[k];
     if (not(length > 0))
       continue;
-    if (not _mesh->on_boundary(f))
+    if (_is_outline[f] == 0)
       found.halo = true;
     else
     {

@@ -126,8 +126,9 @@ private:
   [[nodiscard]] std::int32_t nearest_marker(const Side& side, Point p) const;
 
   const Mesh* _mesh;
-  std::vector<Triple> _beside;        ///< cell behind each facet, or -1
-  std::vector<std::int32_t> _outline; ///< facets on the boundary
+  std::vector<Triple> _beside;           ///< cell behind each facet, or -1
+  std::vector<std::int32_t> _outline;    ///< facets on the boundary of the body
+  std::vector<std::uint8_t> _is_outline; ///< is a facet among them?
   std::span<const std::int32_t> _touched;
   std::vector<std::uint8_t> _is_touched;
   std::vector<std::uint32_t> _seen; ///< number of the last walk that came by
