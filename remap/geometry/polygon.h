@@ -11,9 +11,11 @@
 
 #include "remap/geometry/measure.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 namespace remap
 {
@@ -78,84 +80,129 @@ struct Polygon
 
 namespace polygon
 {
-/// Vertices inside a half-plane: `count` of them from `first` on, cyclic.
-struct Run
-{
-  int first, count;
-};
-
 /// Round-off on vertices nearly in line may leave more than one run of vertices
 /// inside, which a convex polygon cannot have: the run of the deepest is it.
-inline Run deepest_run(unsigned inside, const double* depth, int n)
+inline unsigned deepest_run(unsigned inside, const double* depth, int n)
 {
+  const auto next = [n](int i) { return i == n - 1 ? 0 : i + 1; };
+  const auto is_in = [inside](int i) { return (inside >> i & 1u) != 0; };
   const int deepest =
       static_cast<int>(std::max_element(depth, depth + n) - depth);
-  Run run{deepest, 1};
-  const auto is_in = [&](int i) { return (inside >> ((i + n) % n) & 1u) != 0; };
-  while (run.count < n and is_in(run.first - 1))
-    run.first = (run.first + n - 1) % n, ++run.count;
-  while (run.count < n and is_in(run.first + run.count))
-    ++run.count;
-  return run;
+  unsigned out = 1u << deepest;
+  for (int i = next(deepest); is_in(i) and i != deepest; i = next(i))
+    out |= 1u << i;
+  for (int i = deepest; is_in(i); i = i == 0 ? n - 1 : i - 1)
+    if (out |= 1u << i; out == (1u << n) - 1)
+      break;
+  return out;
 }
 
-/// @param[in] inside one bit a vertex, some set and some not
-/// @param[in] depth  of every vertex, shape (n)
-inline Run inside_run(unsigned inside, const double* depth, int n)
+/// Vertices inside that follow on one outside: one bit for each run.
+constexpr unsigned starts(unsigned inside, int n)
 {
-  const unsigned all = (1u << n) - 1;
-  const unsigned starts = inside & ~((inside << 1 | inside >> (n - 1)) & all);
-  if ((starts & (starts - 1)) != 0) [[unlikely]]
+  return inside & ~((inside << 1 | inside >> (n - 1)) & ((1u << n) - 1));
+}
+
+/// Some vertices in, some out: the run of those inside.
+struct Run
+{
+  int before, first, last, behind; ///< cyclic; outside, inside, inside, outside
+
+  constexpr Run(unsigned inside, int n)
+      : first(std::countr_zero(starts(inside, n)))
+  {
+    last = first + std::popcount(inside) - 1;
+    last -= last < n ? 0 : n;
+    before = first == 0 ? n - 1 : first - 1;
+    behind = last == n - 1 ? 0 : last + 1;
+  }
+};
+
+/// Bits of the vertices inside; one run of them.
+/// @param[out] depth shape (n)
+inline unsigned inside_bits(const HalfPlane& h, const double* x,
+                            const double* y, int n, double* depth)
+{
+  unsigned inside = 0;
+  for (int i = 0; i < n; ++i)
+    depth[i] = h.depth(x[i], y[i]);
+  for (int i = 0; i < n; ++i)
+    inside |= static_cast<unsigned>(depth[i] > 0) << i;
+  const unsigned runs = starts(inside, n);
+  if ((runs & (runs - 1)) != 0) [[unlikely]]
     return deepest_run(inside, depth, n);
-  return {std::countr_zero(starts), std::popcount(inside)};
+  return inside;
 }
 
 /// Where the line crosses the edge from vertex i, inside, to vertex j, outside.
+/// With both inside, as it comes: some point, never NaN.
 inline Point crossing(const double* x, const double* y, const double* depth,
                       int i, int j)
 {
-  const double t = depth[i] / (depth[i] - depth[j]);
+  const double t = depth[i] / (depth[i] + std::abs(depth[j]));
   return {x[i] + t * (x[j] - x[i]), y[i] + t * (y[j] - y[i])};
 }
+
+/// Which vertices make the cut of a polygon with N vertices, by the bits of
+/// those inside. Looked up, since nobody can guess which it will be.
+template <int N>
+struct Cuts
+{
+  struct Entry
+  {
+    std::uint8_t before, first, last, behind;
+    std::uint8_t take[N + 1]; ///< N, N + 1: the crossings into and out of h
+  };
+  Entry entries[1 << N] = {};
+
+  constexpr Cuts()
+  {
+    constexpr unsigned all = (1u << N) - 1;
+    for (unsigned inside = 1; inside <= all; ++inside)
+    {
+      Entry& e = entries[inside];
+      if (inside == all)
+      {
+        for (int k = 0; k <= N; ++k)
+          e.take[k] = static_cast<std::uint8_t>(std::min(k, N - 1));
+        continue;
+      }
+      const Run run(inside, N);
+      e.before = static_cast<std::uint8_t>(run.before);
+      e.first = static_cast<std::uint8_t>(run.first);
+      e.last = static_cast<std::uint8_t>(run.last);
+      e.behind = static_cast<std::uint8_t>(run.behind);
+      e.take[0] = N;
+      for (int k = 1; k <= N; ++k)
+        e.take[k] = static_cast<std::uint8_t>(
+            k <= std::popcount(inside) ? (run.first + k - 1) % N : N + 1);
+    }
+  }
+};
+template <int N>
+inline constexpr Cuts<N> cuts;
 
 /// Cut of a polygon with N vertices to one with N + 1, of which the last may
 /// repeat: with a fixed number no loop has an end to guess.
 ///
-/// @param[in]  x, y   shape (N)
-/// @param[out] px, py shape (N + 1)
+/// @param[in,out] x, y   N vertices, room for N + 2
+/// @param[out]    px, py N + 1 vertices
 /// @return false if nothing is left; then px, py are not written
 template <int N>
-inline bool cut(const HalfPlane& h, const double* x, const double* y,
-                double* px, double* py)
+inline bool cut(const HalfPlane& h, double* x, double* y, double* px,
+                double* py)
 {
   double depth[N];
-  unsigned inside = 0;
-  for (int i = 0; i < N; ++i)
-    depth[i] = h.depth(x[i], y[i]);
-  for (int i = 0; i < N; ++i)
-    inside |= static_cast<unsigned>(depth[i] > 0) << i;
+  const unsigned inside = inside_bits(h, x, y, N, depth);
   if (inside == 0)
     return false;
-  if (inside == (1u << N) - 1)
-  {
-    for (int i = 0; i <= N; ++i)
-      px[i] = x[std::min(i, N - 1)], py[i] = y[std::min(i, N - 1)];
-    return true;
-  }
-  const auto [first, count] = inside_run(inside, depth, N);
-  const int before = first == 0 ? N - 1 : first - 1;
-  const int last = first + count - 1 - (first + count > N ? N : 0);
-  const int after = last == N - 1 ? 0 : last + 1;
-  const Point in = crossing(x, y, depth, first, before);
-  const Point out = crossing(x, y, depth, last, after);
-  px[0] = in.x;
-  py[0] = in.y;
-  for (int k = 1; k <= N; ++k)
-  {
-    const int i = first + k - 1 - (first + k > N ? N : 0);
-    px[k] = k <= count ? x[i] : out.x;
-    py[k] = k <= count ? y[i] : out.y;
-  }
+  const auto& e = cuts<N>.entries[inside];
+  const Point in = crossing(x, y, depth, e.first, e.before);
+  const Point out = crossing(x, y, depth, e.last, e.behind);
+  x[N] = in.x, y[N] = in.y;
+  x[N + 1] = out.x, y[N + 1] = out.y;
+  for (int k = 0; k <= N; ++k)
+    px[k] = x[e.take[k]], py[k] = y[e.take[k]];
   return true;
 }
 
@@ -218,7 +265,7 @@ template <Geometry G>
 inline Moments overlap_from(const Triangle& a, const Triangle& b)
 {
   const Point o = b[0], u = b[1] - o, v = b[2] - o;
-  double x0[3], y0[3], x1[4], y1[4], x2[5], y2[5], x3[6], y3[6];
+  double x0[5], y0[5], x1[6], y1[6], x2[7], y2[7], x3[6], y3[6];
   load(a, o, x0, y0);
   if (not cut<3>(HalfPlane::left_of({}, u), x0, y0, x1, y1)
       or not cut<4>({{-v.y, v.x}, {}}, x1, y1, x2, y2)
@@ -261,13 +308,9 @@ void split(const Polygon<N>& p, const HalfPlane& h, Polygon<M>& in,
   assert(p.size < 32 and p.size < M);
   in.size = out.size = 0;
   const int n = p.size;
+  const double *x = p.x.data(), *y = p.y.data();
   std::array<double, N> depth;
-  unsigned inside = 0;
-  for (int i = 0; i < n; ++i)
-  {
-    depth[i] = h.depth(p.x[i], p.y[i]);
-    inside |= static_cast<unsigned>(depth[i] > 0) << i;
-  }
+  const unsigned inside = polygon::inside_bits(h, x, y, n, depth.data());
   if (inside == 0 or inside == (1u << n) - 1)
   {
     Polygon<M>& all = inside == 0 ? out : in;
@@ -275,20 +318,17 @@ void split(const Polygon<N>& p, const HalfPlane& h, Polygon<M>& in,
       all.push(p[i]);
     return;
   }
-  const auto [first, count] = polygon::inside_run(inside, depth.data(), n);
-  const int before = (first + n - 1) % n;
-  const int last = (first + count - 1) % n;
-  const int after = (last + 1) % n;
-  const double *x = p.x.data(), *y = p.y.data(), *d = depth.data();
-  const Point a = polygon::crossing(x, y, d, first, before);
-  const Point b = polygon::crossing(x, y, d, last, after);
+  const auto next = [n](int i) { return i == n - 1 ? 0 : i + 1; };
+  const polygon::Run run(inside, n);
+  const Point a = polygon::crossing(x, y, depth.data(), run.first, run.before);
+  const Point b = polygon::crossing(x, y, depth.data(), run.last, run.behind);
   in.push(a);
-  for (int k = 0; k < count; ++k)
-    in.push(p[(first + k) % n]);
+  for (int i = run.first; i != run.behind; i = next(i))
+    in.push(p[i]);
   in.push(b);
   out.push(b);
-  for (int k = 0; k < n - count; ++k)
-    out.push(p[(after + k) % n]);
+  for (int i = run.behind; i != run.first; i = next(i))
+    out.push(p[i]);
   out.push(a);
 }
 
@@ -303,13 +343,9 @@ void clip(const Polygon<N>& p, const HalfPlane& h, Polygon<M>& in)
   assert(p.size < 32 and p.size < M);
   in.size = 0;
   const int n = p.size;
+  const double *x = p.x.data(), *y = p.y.data();
   std::array<double, N> depth;
-  unsigned inside = 0;
-  for (int i = 0; i < n; ++i)
-  {
-    depth[i] = h.depth(p.x[i], p.y[i]);
-    inside |= static_cast<unsigned>(depth[i] > 0) << i;
-  }
+  const unsigned inside = polygon::inside_bits(h, x, y, n, depth.data());
   if (inside == 0)
     return;
   if (inside == (1u << n) - 1)
@@ -318,19 +354,11 @@ void clip(const Polygon<N>& p, const HalfPlane& h, Polygon<M>& in)
       in.push(p[i]);
     return;
   }
-  const auto [first, count] = polygon::inside_run(inside, depth.data(), n);
-  const int before = first == 0 ? n - 1 : first - 1;
-  const int last = first + count - 1 - (first + count > n ? n : 0);
-  const int after = last == n - 1 ? 0 : last + 1;
-  const double *x = p.x.data(), *y = p.y.data(), *d = depth.data();
-  in.push(polygon::crossing(x, y, d, first, before));
-  for (int i = first;; i = i == n - 1 ? 0 : i + 1)
-  {
+  const polygon::Run run(inside, n);
+  in.push(polygon::crossing(x, y, depth.data(), run.first, run.before));
+  for (int i = run.first; i != run.behind; i = i == n - 1 ? 0 : i + 1)
     in.push(p[i]);
-    if (i == last)
-      break;
-  }
-  in.push(polygon::crossing(x, y, d, last, after));
+  in.push(polygon::crossing(x, y, depth.data(), run.last, run.behind));
 }
 
 /// Volume and first moments of the part of a triangle in a half-plane.
@@ -339,7 +367,7 @@ template <Geometry G>
 {
   const Triangle a = polygon::turned(t);
   const Point o = a[0];
-  double x[3], y[3], px[4], py[4];
+  double x[5], y[5], px[4], py[4];
   polygon::load(a, o, x, y);
   if (not polygon::cut<3>({h.normal, h.at - o}, x, y, px, py))
     return {};
