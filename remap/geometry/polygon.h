@@ -260,13 +260,15 @@ inline void load(const Triangle& t, Point origin, double* x, double* y)
     x[i] = t[i].x - origin.x, y[i] = t[i].y - origin.y;
 }
 
-/// Overlap of two counter-clockwise triangles, moments about b's first vertex.
+/// Overlap of two counter-clockwise triangles, moments about q's first vertex.
+/// All three cuts are made, whether needed or not: which are needed cannot be
+/// guessed, and a wrong guess costs more than a cut.
 template <Geometry G>
-inline Moments overlap_from(const Triangle& a, const Triangle& b)
+inline Moments overlap_from(const Triangle& p, const Triangle& q)
 {
-  const Point o = b[0], u = b[1] - o, v = b[2] - o;
+  const Point o = q[0], u = q[1] - o, v = q[2] - o;
   double x0[5], y0[5], x1[6], y1[6], x2[7], y2[7], x3[6], y3[6];
-  load(a, o, x0, y0);
+  load(p, o, x0, y0);
   if (not cut<3>(HalfPlane::left_of({}, u), x0, y0, x1, y1)
       or not cut<4>({{-v.y, v.x}, {}}, x1, y1, x2, y2)
       or not cut<5>(HalfPlane::left_of(u, v), x2, y2, x3, y3))

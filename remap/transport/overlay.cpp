@@ -13,6 +13,8 @@ namespace
 constexpr double eps = std::numeric_limits<double>::epsilon();
 /// Pieces for which room is made, per cell.
 constexpr std::size_t usual_pieces = 8;
+/// Walks never come to cells that do not change.
+constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 /// Steps of a search for the cell at a place; then `match` has to find it.
 constexpr int max_steps = 2000;
 
@@ -23,25 +25,40 @@ double depth(Point a, Point b, Point p)
 }
 
 /// Which edges of p, one bit each, pass through the inside of q with a part of
-/// q beyond them. Exact but for round-off: the axes of an edge and a triangle
-/// that may part them are the edge's normal and those of the triangle.
+/// q beyond them. The axes of an edge and a triangle that may part them are the
+/// edge's normal and those of the triangle. Without branches: nobody can guess
+/// the answer.
 unsigned edges_inside(const Triangle& p, const Triangle& q)
 {
-  unsigned outside[3] = {}; // per vertex of p: which half-planes it is not in
+  const Point u = q[1] - q[0], v = q[2] - q[0];
+  // Twice the areas with pairs of edges of q, and depths in its half-planes;
+  // exactly 0 for shared vertices (but for fused multiply-add).
+  double pu[3], pv[3], d[3][3], x[3], y[3];
+  const double uv = cross(u, v);
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      outside[i] |= static_cast<unsigned>(
-                        not(depth(q[j], q[j == 2 ? 0 : j + 1], p[i]) > 0))
-                    << j;
+  {
+    x[i] = p[i].x - q[0].x;
+    y[i] = p[i].y - q[0].y;
+    pu[i] = x[i] * u.y - y[i] * u.x;
+    pv[i] = x[i] * v.y - y[i] * v.x;
+    d[0][i] = -pu[i];
+    d[1][i] = (pu[i] - pv[i]) + uv;
+    d[2][i] = pv[i];
+  }
   unsigned out = 0;
   for (int k = 0; k < 3; ++k)
   {
     const int l = k == 2 ? 0 : k + 1;
-    unsigned beyond = 0;
-    for (int j = 0; j < 3; ++j)
-      beyond |= static_cast<unsigned>(depth(p[k], p[l], q[j]) < 0);
-    out |= (beyond & static_cast<unsigned>((outside[k] & outside[l]) == 0))
-           << k;
+    // Depths of q's vertices inside this edge.
+    const double pp = x[k] * y[l] - y[k] * x[l];
+    const double beyond =
+        std::min(std::min(pp, (pu[l] - pu[k]) + pp), (pv[l] - pv[k]) + pp);
+    const double reach = std::min(
+        std::min(std::max(d[0][k], d[0][l]), std::max(d[1][k], d[1][l])),
+        std::max(d[2][k], d[2][l]));
+    out |=
+        (static_cast<unsigned>(reach > 0) & static_cast<unsigned>(beyond < 0))
+        << k;
   }
   return out;
 }
@@ -111,7 +128,8 @@ Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh)
     for (int k = 0; k < 3; ++k)
     {
       const auto [left, right] = mesh.facet_cells(mesh.cell_facets(c)[k]);
-      _beside[c][k] = left == c ? right : left;
+      const std::int32_t other = left == c ? right : left;
+      _beside[c][k] = other < 0 ? mesh.num_cells() : other;
     }
   // Around the nodes of our cells all cells are here. Elsewhere a facet with
   // one cell is known to be the outline by its marker only.
@@ -128,10 +146,9 @@ Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh)
       _is_outline[f] = 1;
       _outline.push_back(f);
     }
-  _is_touched.assign(n, 0);
-  _seen.assign(n, 0);
+  _seen.assign(n + 1, never);
   _slot.assign(n, -1);
-  _queue.reserve(n);
+  _queue.resize(n + 1);
   _rest.resize(n);
   _pieces.reserve(usual_pieces * n);
   _edges.reserve(n);
@@ -164,16 +181,11 @@ void Overlay::start(std::span<const double> x_old,
   _pieces.clear();
   _worst = -1;
   _touched = touched;
+  _walk = 0;
   for (std::int32_t c : touched)
   {
-    _is_touched[c] = 1;
+    _seen[c] = 0;
     _rest[c] = {};
-  }
-  // Numbers of walks start again before they run out.
-  if (_walk > (1u << 30))
-  {
-    std::fill(_seen.begin(), _seen.end(), 0);
-    _walk = 0;
   }
 }
 
@@ -186,7 +198,7 @@ bool Overlay::measure(Side& side)
     const Triangle t = place(side, c);
     side.whole[c] = about_first<G>(t);
     side.length[c] = longest_edge(t);
-    side.found[c] = {};
+    side.found[c] = 0;
     side.other[c] = 0;
     side.range[c] = {0, 0};
     if (not(side.whole[c].v > 0))
@@ -195,12 +207,13 @@ bool Overlay::measure(Side& side)
   return _worst < 0;
 }
 
-void Overlay::visit(std::int32_t c)
+/// Put a cell on the list of this walk, if it is not there; without a branch.
+inline void Overlay::visit(std::int32_t c, bool wanted)
 {
-  if (c < 0 or _seen[c] == _walk or _is_touched[c] == 0)
-    return;
-  _seen[c] = _walk;
-  _queue.push_back(c);
+  const bool is_new = wanted and _seen[c] < _walk;
+  _queue[_queued] = c;
+  _queued += is_new ? 1 : 0;
+  _seen[c] = is_new ? _walk : _seen[c];
 }
 
 /// Cell of a mesh that holds the centroid of `target`, or the last one on the
@@ -220,7 +233,7 @@ std::int32_t Overlay::locate(const Side& through, std::int32_t from,
       if (not(depth(p[k], p[(k + 1) % 3], g) < 0))
         continue;
       inside = false;
-      if (_beside[at][k] != before)
+      if (_beside[at][k] != before and _beside[at][k] < _mesh->num_cells())
         next = _beside[at][k];
     }
     if (inside or next < 0)
@@ -231,26 +244,26 @@ std::int32_t Overlay::locate(const Side& through, std::int32_t from,
   return -1;
 }
 
-/// Visit all cells that overlap `target`, from c or from the cell at the
-/// target's centroid outwards.
-/// @param[in] use use(cell, place of it): does it overlap?
-template <Geometry G, class Use>
+/// Visit all cells of one mesh that overlap cell c at its place in the other,
+/// from c, or from the cell that is there now, outwards.
+/// @param[in] use use(cell, its place): does it overlap?
+template <class Use>
 void Overlay::walk(const Side& through, std::int32_t c, const Triangle& target,
                    Use&& use)
 {
   ++_walk;
-  _queue.clear();
-  visit(c);
-  for (std::size_t i = 0; i < _queue.size(); ++i)
+  _queued = 0;
+  visit(c, true);
+  for (std::size_t i = 0; i < _queued; ++i)
   {
     const std::int32_t e = _queue[i];
     const Triangle p = place(through, e);
     if (not use(e, p) and e == c)
-      visit(locate(through, c, target));
+      if (const std::int32_t there = locate(through, c, target); there >= 0)
+        visit(there, true);
     const unsigned edges = edges_inside(p, target);
-    for (int k = 0; k < 3; ++k)
-      if ((edges >> k & 1u) != 0)
-        visit(_beside[e][k]);
+    for (unsigned k = 0; k < 3; ++k)
+      visit(_beside[e][k], (edges >> k & 1u) != 0);
   }
 }
 
@@ -262,8 +275,8 @@ bool Overlay::add(std::int32_t c, std::int32_t d, const Triangle& old_place,
   const Moments m = polygon::overlap_from<G>(old_place, new_place);
   if (not(m.v > 0))
     return false;
-  _new.found[d] += m;
-  _old.found[c] += polygon::shifted(m, new_place[0] - old_place[0]);
+  _new.found[d] += m.v;
+  _old.found[c] += m.v;
   const double lc = _old.length[c], ld = _new.length[d];
   _new.other[d] = std::max(_new.other[d], lc);
   _old.other[c] = std::max(_old.other[c], ld);
@@ -290,7 +303,7 @@ bool Overlay::collect_left(Side& side)
   {
     if (c >= _mesh->owned_cells())
       continue;
-    const double gap = side.whole[c].v - side.found[c].v;
+    const double gap = side.whole[c].v - side.found[c];
     const double scale = side.length[c]
                          * std::max(side.length[c], side.other[c])
                          * weight<G>(place(side, c));
@@ -384,7 +397,7 @@ Overlay::Edge Overlay::edge_inside(const Side& through, std::int32_t c,
   const Triangle p = place(through, c);
   for (int k = 0; k < 3; ++k)
   {
-    if (_beside[c][k] >= 0)
+    if (_beside[c][k] < _mesh->num_cells())
       continue;
     const double length = length_inside(p[k], p[(k + 1) % 3], target);
     const std::int32_t f = _mesh->cell_facets(c)[k];
@@ -431,16 +444,22 @@ Outcome Overlay::close(Side& side, const Side& through)
   _edges.assign(side.left.size(), {});
   for (std::size_t i = 0; i < side.left.size(); ++i)
     _slot[side.left[i]] = static_cast<std::int32_t>(i);
-  const auto look = [&](std::int32_t c, std::int32_t across)
+  const auto look =
+      [&](std::int32_t c, std::int32_t across, double volume, Point at)
   {
-    if (c >= 0 and _slot[c] >= 0 and across >= 0)
-      _edges[_slot[c]] =
-          edge_inside(through, across, place(side, c), _edges[_slot[c]]);
+    if (c < 0 or _slot[c] < 0 or across < 0)
+      return;
+    Edge& edge = _edges[_slot[c]];
+    const Triangle t = place(side, c);
+    edge = edge_inside(through, across, t, edge);
+    const Point d = at - t[0];
+    edge.found += {volume, volume * d.x, volume * d.y};
   };
   for (const Piece& p : _pieces)
-    is_new ? look(p.to, p.from) : look(p.from, p.to);
+    is_new ? look(p.to, p.from, p.volume, p.at)
+           : look(p.from, p.to, p.volume, p.at);
   for (std::int32_t c : side.left)
-    look(c, c);
+    look(c, c, _rest[c].volume, _rest[c].at);
 
   Outcome outcome = Outcome::ok;
   for (std::size_t i = 0; i < side.left.size(); ++i)
@@ -460,13 +479,14 @@ Outcome Overlay::close(Side& side, const Side& through)
       _worst = std::max(_worst, _mesh->cell_ids()[c]);
       continue;
     }
-    const Moments rest = side.whole[c] - side.found[c];
-    const Moments& m = rest.v < 1e-13 * scale ? side.whole[c] : rest;
+    const Moments rest = side.whole[c] - edge.found;
+    const double volume = side.volume[i];
+    const Moments& m = volume < 1e-13 * scale ? side.whole[c] : rest;
     const Point at = held_in(t, t[0] + m.centroid());
     const std::int32_t marker =
         edge.outline ? edge.marker : nearest_marker(through, at);
-    _pieces.push_back(is_new ? Piece{-1, c, rest.v, at, marker}
-                             : Piece{c, -1, rest.v, at, marker});
+    _pieces.push_back(is_new ? Piece{-1, c, volume, at, marker}
+                             : Piece{c, -1, volume, at, marker});
   }
   return outcome;
 }
@@ -480,7 +500,7 @@ Outcome Overlay::intersect(std::span<const double> x_old,
   const auto end = [this](Outcome outcome)
   {
     for (std::int32_t c : _touched)
-      _is_touched[c] = 0;
+      _seen[c] = never;
     return outcome;
   };
   if (not measure<G>(_old))
@@ -497,8 +517,8 @@ Outcome Overlay::intersect(std::span<const double> x_old,
       continue;
     const Triangle target = place(_new, d);
     _new.range[d][0] = behind();
-    walk<G>(_old, d, target, [&](std::int32_t c, const Triangle& p)
-            { return add<G>(c, d, p, target); });
+    walk(_old, d, target, [&](std::int32_t c, const Triangle& p)
+         { return add<G>(c, d, p, target); });
     _new.range[d][1] = behind();
   }
   if (not collect_left<G>(_old))
@@ -510,12 +530,12 @@ Outcome Overlay::intersect(std::span<const double> x_old,
     {
       const Triangle target = place(_old, c);
       _old.range[c][0] = behind();
-      walk<G>(_new, c, target,
-              [&](std::int32_t d, const Triangle& p)
-              {
-                return d < owned ? d != c or _rest[c].volume > 0
-                                 : add<G>(c, d, target, p);
-              });
+      walk(_new, c, target,
+           [&](std::int32_t d, const Triangle& p)
+           {
+             return d < owned ? d != c or _rest[c].volume > 0
+                              : add<G>(c, d, target, p);
+           });
       _old.range[c][1] = behind();
     }
     if (not collect_left<G>(_old))

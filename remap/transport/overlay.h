@@ -78,7 +78,7 @@ private:
   {
     std::span<const double> x;
     std::vector<Moments> whole;     ///< of a touched cell, about its first node
-    std::vector<Moments> found;     ///< overlaps so far, about the same
+    std::vector<double> found;      ///< volume of overlaps so far
     std::vector<double> length;     ///< longest edge
     std::vector<double> other;      ///< longest edge of those overlapped
     std::vector<Pair> range;        ///< pieces of its walk: first, behind last
@@ -91,9 +91,10 @@ private:
     Point lo, hi;
     std::int32_t cell;
   };
-  /// What limits the mesh inside a cell's place.
+  /// What was found of a cell, and what limits the other mesh inside it.
   struct Edge
   {
+    Moments found;            ///< about the cell's first node
     double length = 0;        ///< of the longest part of an outline facet
     std::int32_t marker = -1; ///< of that facet
     bool outline = false, halo = false;
@@ -104,8 +105,8 @@ private:
              std::span<const std::int32_t> touched);
   template <Geometry G>
   [[nodiscard]] bool measure(Side& side);
-  void visit(std::int32_t c);
-  template <Geometry G, class Use>
+  void visit(std::int32_t c, bool wanted);
+  template <class Use>
   void walk(const Side& through, std::int32_t c, const Triangle& target,
             Use&& use);
   [[nodiscard]] std::int32_t locate(const Side& through, std::int32_t from,
@@ -126,14 +127,15 @@ private:
   [[nodiscard]] std::int32_t nearest_marker(const Side& side, Point p) const;
 
   const Mesh* _mesh;
-  std::vector<Triple> _beside;           ///< cell behind each facet, or -1
-  std::vector<std::int32_t> _outline;    ///< facets on the boundary of the body
+  std::vector<Triple> _beside;        ///< cell behind each facet, or num_cells
+  std::vector<std::int32_t> _outline; ///< facets on the boundary of the body
   std::vector<std::uint8_t> _is_outline; ///< is a facet among them?
   std::span<const std::int32_t> _touched;
-  std::vector<std::uint8_t> _is_touched;
   std::vector<std::uint32_t> _seen; ///< number of the last walk that came by
   std::uint32_t _walk = 0;
-  std::vector<std::int32_t> _queue, _slot;
+  std::vector<std::int32_t> _queue; ///< cells to visit, the first _queued
+  std::size_t _queued = 0;
+  std::vector<std::int32_t> _slot;
   Side _old, _new;
   std::vector<Rest> _rest;
   std::vector<Piece> _pieces;
