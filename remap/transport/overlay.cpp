@@ -208,12 +208,14 @@ bool Overlay::measure(Side& side)
 }
 
 /// Put a cell on the list of this walk, if it is not there; without a branch.
-inline void Overlay::visit(std::int32_t c, bool wanted)
+inline void Overlay::visit(std::int32_t c, std::uint32_t wanted)
 {
-  const bool is_new = wanted and _seen[c] < _walk;
+  const std::uint32_t seen = _seen[c];
+  const std::uint32_t is_new =
+      wanted & static_cast<std::uint32_t>(seen < _walk);
   _queue[_queued] = c;
-  _queued += is_new ? 1 : 0;
-  _seen[c] = is_new ? _walk : _seen[c];
+  _queued += is_new;
+  _seen[c] = seen + is_new * (_walk - seen);
 }
 
 /// Cell of a mesh that holds the centroid of `target`, or the last one on the
@@ -244,6 +246,20 @@ std::int32_t Overlay::locate(const Side& through, std::int32_t from,
   return -1;
 }
 
+/// Put all cells that overlap `target` on the list, outwards from those that
+/// are on it from `first` on.
+void Overlay::spread(const Side& through, const Triangle& target,
+                     std::size_t first)
+{
+  for (std::size_t i = first; i < _queued; ++i)
+  {
+    const std::int32_t e = _queue[i];
+    const unsigned edges = edges_inside(place(through, e), target);
+    for (unsigned k = 0; k < 3; ++k)
+      visit(_beside[e][k], edges >> k & 1u);
+  }
+}
+
 /// Visit all cells of one mesh that overlap cell c at its place in the other,
 /// from c, or from the cell that is there now, outwards.
 /// @param[in] use use(cell, its place): does it overlap?
@@ -253,18 +269,19 @@ void Overlay::walk(const Side& through, std::int32_t c, const Triangle& target,
 {
   ++_walk;
   _queued = 0;
-  visit(c, true);
-  for (std::size_t i = 0; i < _queued; ++i)
-  {
-    const std::int32_t e = _queue[i];
-    const Triangle p = place(through, e);
-    if (not use(e, p) and e == c)
-      if (const std::int32_t there = locate(through, c, target); there >= 0)
-        visit(there, true);
-    const unsigned edges = edges_inside(p, target);
-    for (unsigned k = 0; k < 3; ++k)
-      visit(_beside[e][k], (edges >> k & 1u) != 0);
-  }
+  visit(c, 1);
+  spread(through, target, 0);
+  // The list first, then the overlaps: what comes next on the list hangs on
+  // what is there, overlaps do not hang on each other.
+  if (not use(c, place(through, c)))
+    if (const std::int32_t there = locate(through, c, target); there >= 0)
+    {
+      const std::size_t behind = _queued;
+      visit(there, 1);
+      spread(through, target, behind);
+    }
+  for (std::size_t i = 1; i < _queued; ++i)
+    use(_queue[i], place(through, _queue[i]));
 }
 
 /// Overlap of old cell c with new cell d, into the books of both.

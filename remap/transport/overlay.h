@@ -105,7 +105,8 @@ private:
              std::span<const std::int32_t> touched);
   template <Geometry G>
   [[nodiscard]] bool measure(Side& side);
-  void visit(std::int32_t c, bool wanted);
+  void visit(std::int32_t c, std::uint32_t wanted);
+  void spread(const Side& through, const Triangle& target, std::size_t first);
   template <class Use>
   void walk(const Side& through, std::int32_t c, const Triangle& target,
             Use&& use);
