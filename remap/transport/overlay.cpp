@@ -180,6 +180,7 @@ void Overlay::start(std::span<const double> x_old,
   _new.x = x_new;
   _pieces.clear();
   _worst = -1;
+  _matched = 0;
   _touched = touched;
   _walk = 0;
   for (std::int32_t c : touched)
@@ -387,7 +388,9 @@ void Overlay::match()
   {
     if (o.hi.y > n.lo.y and n.hi.y > o.lo.y
         and (o.cell < owned or n.cell < owned) and not known(o.cell, n.cell))
-      add<G>(o.cell, n.cell, place(_old, o.cell), place(_new, n.cell));
+      _matched +=
+          add<G>(o.cell, n.cell, place(_old, o.cell), place(_new, n.cell)) ? 1
+                                                                           : 0;
   };
   auto o = _old_boxes.begin();
   auto n = _new_boxes.begin();

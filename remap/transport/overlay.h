@@ -69,6 +69,9 @@ public:
   [[nodiscard]] std::span<const Piece> pieces() const { return _pieces; }
   /// What stays in a touched cell of ours.
   [[nodiscard]] const Rest& rest(std::int32_t c) const { return _rest[c]; }
+  /// Pairs of the last call that no walk found, but the comparison of what was
+  /// left over. More than a few only where an outline moved far.
+  [[nodiscard]] int matched() const { return _matched; }
   /// Global number of the cell that made the last call fail, or -1.
   [[nodiscard]] std::int64_t worst_cell() const { return _worst; }
 
@@ -142,6 +145,7 @@ private:
   std::vector<Piece> _pieces;
   std::vector<Edge> _edges;
   std::vector<Box> _old_boxes, _new_boxes;
+  int _matched = 0;
   std::int64_t _worst = -1;
 };
 } // namespace remap

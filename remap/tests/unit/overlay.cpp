@@ -104,6 +104,7 @@ TEST_CASE("overlay: parts add up to old cells and fill new ones", "[overlay]")
     CHECK(std::abs(in[i].x - v[i] * c[2 * i]) < round_off);
     CHECK(std::abs(in[i].y - v[i] * c[2 * i + 1]) < round_off);
   }
+  CHECK(overlay.matched() == 0); // walks find all
   // Some have left their place wholly.
   if (cells != 0.5)
     CHECK((emptied > 0) == (cells >= 1));
@@ -255,6 +256,7 @@ TEST_CASE("overlay: a cell that leaves the mesh finds it again across a gap",
     if (p.to < 0)
       lost += p.volume;
   }
+  CHECK(overlay.matched() > 0);
   // Ahead 2.5 × 6, the old gap 1 × 4; behind 2.5 × 6, the new gap 1 × 4.
   CHECK(gained == Approx(19));
   CHECK(lost == Approx(19));

@@ -56,6 +56,7 @@ struct Result
 {
   Outcome local = Outcome::ok; ///< of this rank alone
   bool all_ok = false;         ///< of all ranks
+  int matched = 0;             ///< pairs that no walk found
   std::vector<double> field;
   /// Volume and centroid of what goes between two cells, by global numbers.
   std::map<std::pair<std::int64_t, std::int64_t>, std::array<double, 3>> pairs;
@@ -70,6 +71,7 @@ Result run(const Start& start, const ranks::Part& part, const Host& host)
   Result out;
   out.local = carry::intersect(overlay, start.geometry, from, to,
                                carry::touched(mesh, from, to));
+  out.matched = overlay.matched();
   out.all_ok = host.max(static_cast<double>(out.local)) == 0;
   if (not out.all_ok)
     return out;
@@ -137,6 +139,8 @@ TEST_CASE("overlay on ranks: equal to one process, or a clear outcome",
              or result.local == Outcome::beyond_halo));
       continue;
     }
+    if (stripes and not outline)
+      CHECK(result.matched == 0);
     const ranks::Part& p = world.parts[r];
     for (std::size_t i = 0; i < p.owned_cells; ++i)
       CHECK(std::abs(result.field[i] - expected[p.cells[i]]) < 1e-13);

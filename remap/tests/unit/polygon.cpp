@@ -132,6 +132,29 @@ TEST_CASE("clip: a polygon of 16 vertices by each of its own edges is itself",
   }
 }
 
+TEST_CASE("clip: vertices in line up to round-off, along the cut", "[geometry]")
+{
+  // A square with a zigzag of one rounding on its upper side, from each vertex
+  // on: a line along that side leaves more than one run of vertices inside.
+  const double up = 1 + eps, down = 1 - eps;
+  const std::array<Point, 9> v = {Point{0, 0},  {1, 0},       {1, 1},
+                                  {0.8, down},  {0.7, up},    {0.5, down},
+                                  {0.375, 1.0}, {0.25, down}, {0, 1}};
+  for (int first = 0; first < 9; ++first)
+  {
+    Polygon<9> p;
+    for (int i = 0; i < 9; ++i)
+      p.push(v[(first + i) % 9]);
+    Polygon<10> in, out;
+    split(p, HalfPlane::below({0, 1}, 1), in, out);
+    CHECK(moments<Geometry::plane>(in).v == Approx(1).epsilon(4 * eps));
+    CHECK(moments<Geometry::plane>(out).v <= 4 * eps);
+    split(p, HalfPlane::below({0, -1}, -1), in, out);
+    CHECK(moments<Geometry::plane>(out).v == Approx(1).epsilon(4 * eps));
+    CHECK(moments<Geometry::plane>(in).v <= 4 * eps);
+  }
+}
+
 TEST_CASE("overlap: degenerate pairs", "[geometry]")
 {
   const Triangle t = {Point{0, 0}, {1, 0}, {0, 1}};
