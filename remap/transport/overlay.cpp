@@ -306,7 +306,7 @@ bool Overlay::add(std::int32_t c, std::int32_t d, const Triangle& old_place,
   if (c == d)
     _rest[c] = {m.v, at};
   else
-    _pieces.push_back({c, d, m.v, at, -1});
+    _pieces.push_back({.from = c, .to = d, .volume = m.v, .at = at});
   return true;
 }
 
@@ -431,17 +431,17 @@ Overlay::Edge Overlay::edge_inside(const Side& through, std::int32_t c,
       if (length > found.length)
       {
         found.length = length;
-        found.marker = _mesh->marker(f);
+        found.facet = f;
       }
     }
   }
   return found;
 }
 
-std::int32_t Overlay::nearest_marker(const Side& side, Point p) const
+std::int32_t Overlay::nearest_outline(const Side& side, Point p) const
 {
   double best = std::numeric_limits<double>::infinity();
-  std::int32_t marker = -1;
+  std::int32_t nearest = -1;
   for (std::int32_t f : _outline)
   {
     const auto [a, b] = _mesh->facet(f);
@@ -449,10 +449,10 @@ std::int32_t Overlay::nearest_marker(const Side& side, Point p) const
     if (dot(d, d) < best)
     {
       best = dot(d, d);
-      marker = _mesh->marker(f);
+      nearest = f;
     }
   }
-  return marker;
+  return nearest;
 }
 
 /// What is still not found lies outside the other mesh, or beyond the halo.
@@ -503,10 +503,14 @@ Outcome Overlay::close(Side& side, const Side& through)
     const double volume = side.volume[i];
     const Moments& m = volume < 1e-13 * scale ? side.whole[c] : rest;
     const Point at = held_in(t, t[0] + m.centroid());
-    const std::int32_t marker =
-        edge.outline ? edge.marker : nearest_marker(through, at);
-    _pieces.push_back(is_new ? Piece{-1, c, volume, at, marker}
-                             : Piece{c, -1, volume, at, marker});
+    const std::int32_t facet =
+        edge.outline ? edge.facet : nearest_outline(through, at);
+    _pieces.push_back({.from = is_new ? -1 : c,
+                       .to = is_new ? c : -1,
+                       .volume = volume,
+                       .at = at,
+                       .facet = facet,
+                       .marker = facet < 0 ? -1 : _mesh->marker(facet)});
   }
   return outcome;
 }

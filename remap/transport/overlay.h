@@ -35,7 +35,8 @@ public:
     std::int32_t to = -1;     ///< new cell; -1: to outside the new mesh
     double volume = 0;        ///< > 0
     Point at;                 ///< its centroid
-    std::int32_t marker = -1; ///< of the boundary facet, if one end is outside
+    std::int32_t facet = -1;  ///< of the outline, if one end is outside
+    std::int32_t marker = -1; ///< of that facet
   };
 
   /// What stays in its cell: the overlap of its old with its new place.
@@ -97,9 +98,9 @@ private:
   /// What was found of a cell, and what limits the other mesh inside it.
   struct Edge
   {
-    Moments found;            ///< about the cell's first node
-    double length = 0;        ///< of the longest part of an outline facet
-    std::int32_t marker = -1; ///< of that facet
+    Moments found;           ///< about the cell's first node
+    double length = 0;       ///< of the longest part of an outline facet
+    std::int32_t facet = -1; ///< that facet
     bool outline = false, halo = false;
   };
 
@@ -128,7 +129,7 @@ private:
   [[nodiscard]] Outcome close(Side& side, const Side& through);
   [[nodiscard]] Edge edge_inside(const Side& through, std::int32_t c,
                                  const Triangle& target, Edge found) const;
-  [[nodiscard]] std::int32_t nearest_marker(const Side& side, Point p) const;
+  [[nodiscard]] std::int32_t nearest_outline(const Side& side, Point p) const;
 
   const Mesh* _mesh;
   std::vector<Triple> _beside;        ///< cell behind each facet, or num_cells
