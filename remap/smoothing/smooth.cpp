@@ -4,10 +4,12 @@
 
 #include "remap/smoothing/colouring.h"
 #include "remap/smoothing/surface.h"
+#include "remap/smoothing/untangle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 using namespace remap;
 
@@ -18,6 +20,8 @@ constexpr int max_halvings = 4;
 /// Steps shorter than this part of the patch are not made: a node at its best
 /// place must stay there to the last bit.
 constexpr double least_step = 1e-10;
+/// Passes of untangling before it is given up.
+constexpr int max_passes = 100;
 
 quality::Target target_of(std::span<const quality::Target> targets,
                           std::int32_t c)
@@ -70,11 +74,55 @@ Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
   std::size_t widest = 0;
   for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
     widest = std::max(widest, mesh.node_cells()[i].size());
+  build_stars();
   _patch.reserve(widest);
+  _cells.reserve(mesh.num_cells());
+  _near.resize(mesh.num_cells());
+  _before.resize(2 * static_cast<std::size_t>(mesh.num_nodes()));
   _order.reserve(mesh.owned_nodes());
   _start.resize(_num_colours + 1);
   _flags.resize(mesh.num_nodes());
   _shifted.resize(mesh.num_nodes());
+}
+
+/// Cells around each node of ours, one after the other counter-clockwise from
+/// the boundary; around an inner node from its neighbour with the smallest
+/// global number: so sums over a patch do not depend on the number of ranks.
+void Smoothing::build_stars()
+{
+  const auto& around = _mesh->node_cells();
+  _stars.resize(around.entries.size());
+  for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
+  {
+    const auto cells = around[i];
+    const std::span star(_stars.data() + around.offsets[i], cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k)
+    {
+      const Triple& n = _mesh->cell(cells[k]);
+      const int v = n[0] == i ? 0 : (n[1] == i ? 1 : 2);
+      star[k] = {n[(v + 1) % 3], n[(v + 2) % 3], cells[k], v};
+    }
+    const auto id = [this](const StarCell& c) { return _mesh->node_ids()[c.a]; };
+    for (std::size_t k = 0; k < star.size(); ++k)
+    {
+      // The cell after the last one; else the start of a fan, of these the
+      // smallest; else, in a ring, the smallest.
+      const auto rank = [&](const StarCell& c)
+      {
+        const bool next = k > 0 and star[k - 1].b == c.a;
+        const bool starts = std::none_of(star.begin(), star.end(),
+                                         [&](const StarCell& o)
+                                         { return o.b == c.a; });
+        return std::pair(next ? 0 : (starts ? 1 : 2), id(c));
+      };
+      std::iter_swap(star.begin() + static_cast<std::ptrdiff_t>(k),
+                     std::min_element(
+                         star.begin() + static_cast<std::ptrdiff_t>(k),
+                         star.end(),
+                         [&](const StarCell& a, const StarCell& b)
+                         { return rank(a) < rank(b); }));
+    }
+  }
 }
 
 bool Smoothing::flag(std::span<const double> x,
@@ -112,18 +160,19 @@ bool Smoothing::sizes_fit(std::span<const double> x,
                           const Constraints& c) const
 {
   const auto n = static_cast<std::size_t>(_mesh->num_nodes());
-  const bool slides =
-      std::find(c.kinds.begin(), c.kinds.end(), Kind::slide) != c.kinds.end();
+  const auto any = [&](Kind kind)
+  { return std::find(c.kinds.begin(), c.kinds.end(), kind) != c.kinds.end(); };
   const auto facets = static_cast<std::size_t>(_mesh->num_facets());
   const auto cells = static_cast<std::size_t>(_mesh->num_cells());
   return x.size() == 2 * n and flags.size() == n and c.kinds.size() == n
-         and (slides ? c.direction.size() == 2 * n
+         and (any(Kind::curve) ? c.guide != nullptr : true)
+         and (any(Kind::slide) ? c.direction.size() == 2 * n
                      : c.direction.empty() or c.direction.size() == 2 * n)
          and (c.spacing.empty() or c.spacing.size() == facets)
          and (c.targets.empty() or c.targets.size() == cells);
 }
 
-/// Flagged nodes of ours that may move, sorted by colour.
+/// Flagged nodes of ours that may move, sorted by colour, and their cells.
 void Smoothing::collect(std::span<const std::uint8_t> flags,
                         const Constraints& c)
 {
@@ -142,51 +191,75 @@ void Smoothing::collect(std::span<const std::uint8_t> flags,
   for (int k = _num_colours; k > 0; --k)
     _start[k] = _start[k - 1];
   _start[0] = 0;
-}
-
-/// Worst quality around our flagged nodes; global number of an inverted cell.
-double Smoothing::worst_around(std::span<const double> x, const Constraints& c,
-                               double& inverted) const
-{
-  double q = 1;
+  _cells.clear();
+  std::fill(_near.begin(), _near.end(), std::uint8_t(0));
   for (std::int32_t i : _order)
     for (std::int32_t cell : _mesh->node_cells()[i])
-    {
-      const double one =
-          quality_of(*_mesh, x, _options.measure, c.targets, cell);
-      q = std::min(q, one);
-      if (not(one > 0))
-        inverted =
-            std::max(inverted, static_cast<double>(_mesh->cell_ids()[cell]));
-    }
-  return q;
+      if (not std::exchange(_near[cell], std::uint8_t(1)))
+        _cells.push_back(cell);
 }
 
-/// The patch of a node into _patch.
-void Smoothing::gather(std::int32_t node, std::span<const double> x,
-                       const Constraints& c)
+Smoothing::Worst Smoothing::worst_of(std::span<const double> x,
+                                     const Constraints& c) const
 {
-  _patch.clear();
-  for (std::int32_t cell : _mesh->node_cells()[node])
+  Worst out;
+  for (std::int32_t cell : _cells)
   {
-    const Triple& n = _mesh->cell(cell);
-    quality::Target w = target_of(c.targets, cell);
-    int i = 0;
-    for (; n[i] != node; ++i)
-      w = w.next();
-    _patch.push_back({point(x, n[(i + 1) % 3]), point(x, n[(i + 2) % 3]), w});
+    const double one =
+        quality_of(*_mesh, x, _options.measure, c.targets, cell);
+    out.quality = std::min(out.quality, one);
+    if (not(one > 0))
+    {
+      out.inverted =
+          std::max(out.inverted, static_cast<double>(_mesh->cell_ids()[cell]));
+      out.count += cell < _mesh->owned_cells();
+    }
   }
+  return out;
+}
+
+/// The patch of a node; its cells are in _patch.
+Patch Smoothing::gather(std::int32_t node, std::span<const double> x,
+                        const Constraints& c)
+{
+  const auto& around = _mesh->node_cells();
+  _patch.clear();
+  for (std::int32_t k = around.offsets[node]; k < around.offsets[node + 1]; ++k)
+  {
+    const StarCell& s = _stars[k];
+    quality::Target w = target_of(c.targets, s.cell);
+    if (not c.targets.empty())
+      for (std::int32_t v = 0; v < s.vertex; ++v)
+        w = w.next();
+    _patch.push_back({point(x, s.a), point(x, s.b), w});
+  }
+  Patch out{point(x, node), _patch, {}};
+  if (c.kinds[node] == Kind::slide or c.kinds[node] == Kind::curve)
+  {
+    const Point t = c.kinds[node] == Kind::slide
+                        ? point(c.direction, node)
+                        : c.guide->foot(node, out.x).along;
+    out.along = (1 / std::sqrt(dot(t, t))) * t;
+  }
+  return out;
+}
+
+void Smoothing::put(std::int32_t node, std::span<double> x, Point to)
+{
+  x[2 * node] = to.x;
+  x[2 * node + 1] = to.y;
+  _shifted[node] = 1;
 }
 
 // A worst cell that the move leaves as it is differs in its last digits; these
 // must not decide, or the result would depend on them.
 constexpr double round_off = 1e-12;
 
-/// Try a move and halves of it: `place(part)` is where the node would be.
-/// Returns the length of the step that was made.
-template <class Place>
-double Smoothing::accept(std::int32_t node, std::span<double> x, double floor,
-                         Place&& place)
+/// Try a move and halves of it: `place(part)` is where the node would be,
+/// `good` tells if it may. Returns the length of the step that was made.
+template <class Place, class Good>
+double Smoothing::accept(std::int32_t node, std::span<double> x, Place&& place,
+                         Good&& good)
 {
   const Point old = point(x, node);
   double size = 0;
@@ -199,11 +272,9 @@ double Smoothing::accept(std::int32_t node, std::span<double> x, double floor,
     const double step = dot(to - old, to - old);
     if (not(step > least_step * least_step * size))
       return 0;
-    if (not(worst(_patch, to, _options.measure) >= floor - round_off))
+    if (not good(to))
       continue;
-    x[2 * node] = to.x;
-    x[2 * node + 1] = to.y;
-    _shifted[node] = 1;
+    put(node, x, to);
     return std::sqrt(step);
   }
   return 0;
@@ -213,17 +284,25 @@ template <class S>
 double Smoothing::visit(std::int32_t node, std::span<double> x,
                         const Constraints& c)
 {
-  gather(node, x, c);
-  Patch patch{point(x, node), _patch, {}};
-  if (c.kinds[node] == Kind::slide)
-  {
-    const Point t = point(c.direction, node);
-    patch.along = (1 / std::sqrt(dot(t, t))) * t;
-  }
-  const Point goal = S::propose(patch);
+  const Patch patch = gather(node, x, c);
   const Point old = patch.x;
-  return accept(node, x, worst(_patch, old, _options.measure),
-                [&](double part) { return old + part * (goal - old); });
+  const Point goal = S::propose(patch);
+  const double q = worst(_patch, old, _options.measure);
+  const double least = std::max(_floor, std::min(q, _options.threshold));
+  return accept(
+      node, x,
+      [&](double part)
+      {
+        const Point to = old + part * (goal - old);
+        return c.kinds[node] == Kind::curve ? c.guide->foot(node, to).at : to;
+      },
+      [&](Point to)
+      {
+        const double now = worst(_patch, to, _options.measure);
+        return now >= q - round_off
+               or (now >= least - round_off
+                   and distortion(_patch, to) < distortion(_patch, old));
+      });
 }
 
 template <class S>
@@ -233,36 +312,75 @@ double Smoothing::visit_surface(std::int32_t node, std::span<double> x,
   const auto [in, out] = _mesh->boundary_facets(node);
   if (in < 0)
     return 0;
-  gather(node, x, c);
-  const Point old = point(x, node);
+  Patch patch = gather(node, x, c);
+  const Point old = patch.x;
   const Point before = point(x, _mesh->facet(in)[0]);
   const Point after = point(x, _mesh->facet(out)[1]);
   const Point chord = after - before;
   const double length2 = dot(chord, chord);
   const double now = dot(old - before, chord) / length2;
-  const double q = worst(_patch, old, _options.measure);
+  double floor = worst(_patch, old, _options.measure);
   double tau = now;
-  double floor = q;
   if (c.spacing.empty())
   {
-    Patch patch{old, _patch, (1 / std::sqrt(length2)) * chord};
+    patch.along = (1 / std::sqrt(length2)) * chord;
     tau = dot(S::propose(patch) - before, chord) / length2;
   }
   else
   {
     tau = surface::part(before, old, after, c.spacing[in], c.spacing[out]);
-    floor = std::min(q, _options.threshold);
+    floor = std::min(floor, _options.threshold);
   }
-  return accept(node, x, floor,
-                [&](double part)
-                {
-                  const double to = now + part * (tau - now);
-                  return _options.geometry == Geometry::plane
-                             ? surface::at<Geometry::plane>(before, old, after,
-                                                            to)
-                             : surface::at<Geometry::axisymmetric>(before, old,
-                                                                   after, to);
-                });
+  return accept(
+      node, x,
+      [&](double part)
+      {
+        const double to = now + part * (tau - now);
+        return _options.geometry == Geometry::plane
+                   ? surface::at<Geometry::plane>(before, old, after, to)
+                   : surface::at<Geometry::axisymmetric>(before, old, after,
+                                                         to);
+      },
+      [&](Point to)
+      { return worst(_patch, to, _options.measure) >= floor - round_off; });
+}
+
+/// Until no cell that is worked on is inverted. False if some remain.
+bool Smoothing::untangle(std::span<double> x, const Constraints& c,
+                         const Host& host)
+{
+  for (int pass = 0; pass < max_passes; ++pass)
+  {
+    double moved = 0;
+    for (int colour = 0; colour < _num_colours; ++colour)
+    {
+      for (std::int32_t k = _start[colour]; k < _start[colour + 1]; ++k)
+      {
+        const std::int32_t i = _order[k];
+        if (c.kinds[i] == Kind::surface) // area would be lost or gained
+          continue;
+        const Patch patch = gather(i, x, c);
+        if (smallest_area(patch.cells, patch.x) > 0)
+          continue;
+        Point to = untangled(patch);
+        if (c.kinds[i] == Kind::curve)
+          to = c.guide->foot(i, to).at;
+        if (not(smallest_area(patch.cells, to)
+                > smallest_area(patch.cells, patch.x)))
+          continue;
+        put(i, x, to);
+        moved = 1;
+      }
+      host.update_nodes(x, 2);
+    }
+    double state[2] = {worst_of(x, c).inverted, moved};
+    host.max(std::span(state, 2));
+    if (state[0] < 0)
+      return true;
+    if (state[1] == 0)
+      return false;
+  }
+  return false;
 }
 
 template <class S>
@@ -271,6 +389,7 @@ void Smoothing::sweeps(std::span<double> x, const Constraints& c,
 {
   for (int sweep = 0; sweep < _options.sweeps; ++sweep)
   {
+    _floor = _report.worst_after;
     double longest = 0;
     for (int colour = 0; colour < _num_colours; ++colour)
     {
@@ -283,9 +402,11 @@ void Smoothing::sweeps(std::span<double> x, const Constraints& c,
       }
       host.update_nodes(x, 2);
     }
-    longest = host.max(longest);
-    _report.largest_step = std::max(_report.largest_step, longest);
-    if (longest == 0)
+    double state[2] = {longest, -worst_of(x, c).quality};
+    host.max(std::span(state, 2));
+    _report.largest_step = std::max(_report.largest_step, state[0]);
+    _report.worst_after = -state[1];
+    if (state[0] == 0)
       return;
   }
 }
@@ -301,9 +422,9 @@ Outcome Smoothing::smooth(std::span<double> x,
   _order.clear();
   if (fit)
     collect(flags, c);
-  double inverted = -1;
-  const double q = fit and finite ? worst_around(x, c, inverted) : 1;
-  double state[4] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, inverted, -q};
+  const Worst first = fit and finite ? worst_of(x, c) : Worst{};
+  double state[4] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, first.inverted,
+                     -first.quality};
   host.max(std::span(state, 4));
   if (state[0] > 0)
     return Outcome::wrong_size;
@@ -311,15 +432,22 @@ Outcome Smoothing::smooth(std::span<double> x,
     return Outcome::not_finite;
   _report.worst_before = _report.worst_after = -state[3];
   _report.worst_cell = static_cast<std::int64_t>(state[2]);
-  if (_report.worst_cell >= 0)
-    return Outcome::inverted_start;
-
   std::fill(_shifted.begin(), _shifted.end(), std::uint8_t(0));
+  if (_report.worst_cell >= 0)
+  {
+    std::copy(x.begin(), x.end(), _before.begin());
+    if (not untangle(x, c, host))
+    {
+      std::copy(_before.begin(), _before.end(), x.begin());
+      return Outcome::inverted_start;
+    }
+    _report.untangled = static_cast<std::int32_t>(first.count);
+    _report.worst_after = -host.max(-worst_of(x, c).quality);
+  }
   std::visit([&]<class S>(const S&) { sweeps<S>(x, c, host); },
              _options.smoother);
   _report.moved = static_cast<std::int32_t>(
       std::count(_shifted.begin(), _shifted.end(), 1));
-  _report.worst_after = -host.max(-worst_around(x, c, inverted));
   return Outcome::ok;
 }
 
