@@ -89,7 +89,7 @@ struct Newton
   static constexpr int max_steps = 5;
   /// Halvings of a step. Doubled: nothing but time.
   static constexpr int max_halvings = 12;
-  static constexpr double enough = 1e-14;
+  static constexpr double enough = 1e-3;
 
   static Point propose(const Patch& patch)
   {

@@ -22,6 +22,8 @@ constexpr int max_halvings = 4;
 constexpr double least_step = 1e-10;
 /// Passes of untangling before it is given up.
 constexpr int max_passes = 100;
+/// Part of its patch's mean that a cell's area shall have after untangling.
+constexpr double sound = 1e-3;
 
 quality::Target target_of(std::span<const quality::Target> targets,
                           std::int32_t c)
@@ -51,8 +53,8 @@ std::vector<std::string> SmoothingOptions::complaints() const
     out.push_back("rings: must not be negative");
   if (sweeps < 1)
     out.push_back("sweeps: must be at least 1");
-  if (not(relaxation > 0 and relaxation <= 1))
-    out.push_back("relaxation: must lie in (0, 1]");
+  if (not(relaxation > 0 and relaxation < 2))
+    out.push_back("relaxation: must lie in (0, 2)");
   return out;
 }
 
@@ -280,11 +282,30 @@ double Smoothing::accept(std::int32_t node, std::span<double> x, Place&& place,
   return 0;
 }
 
+/// A node that has left its curve goes back to it, with the right of a surface
+/// node. Returns where it is now.
+Point Smoothing::come_back(std::int32_t node, std::span<double> x,
+                           const Guide& guide)
+{
+  const Point old = point(x, node);
+  const double floor = std::min(worst(_patch, old, _options.measure),
+                                _options.threshold);
+  accept(
+      node, x,
+      [&](double part)
+      { return old + std::min(part, 1.0) * (guide.foot(node, old).at - old); },
+      [&](Point to)
+      { return worst(_patch, to, _options.measure) >= floor - round_off; });
+  return point(x, node);
+}
+
 template <class S>
 double Smoothing::visit(std::int32_t node, std::span<double> x,
                         const Constraints& c)
 {
-  const Patch patch = gather(node, x, c);
+  Patch patch = gather(node, x, c);
+  if (c.kinds[node] == Kind::curve)
+    patch.x = come_back(node, x, *c.guide);
   const Point old = patch.x;
   const Point goal = S::propose(patch);
   const double q = worst(_patch, old, _options.measure);
@@ -345,7 +366,8 @@ double Smoothing::visit_surface(std::int32_t node, std::span<double> x,
       { return worst(_patch, to, _options.measure) >= floor - round_off; });
 }
 
-/// Until no cell that is worked on is inverted. False if some remain.
+/// Until no cell that is worked on is inverted, nor so thin that a barrier has
+/// no hold on it. False if some remain inverted.
 bool Smoothing::untangle(std::span<double> x, const Constraints& c,
                          const Host& host)
 {
@@ -360,27 +382,24 @@ bool Smoothing::untangle(std::span<double> x, const Constraints& c,
         if (c.kinds[i] == Kind::surface) // area would be lost or gained
           continue;
         const Patch patch = gather(i, x, c);
-        if (smallest_area(patch.cells, patch.x) > 0)
+        const double least = smallest_area(patch.cells, patch.x);
+        const double enough = sound * std::abs(mean_area(patch));
+        if (least > enough)
           continue;
         Point to = untangled(patch);
         if (c.kinds[i] == Kind::curve)
           to = c.guide->foot(i, to).at;
-        if (not(smallest_area(patch.cells, to)
-                > smallest_area(patch.cells, patch.x)))
+        if (not(smallest_area(patch.cells, to) > least + sound * enough))
           continue;
         put(i, x, to);
         moved = 1;
       }
       host.update_nodes(x, 2);
     }
-    double state[2] = {worst_of(x, c).inverted, moved};
-    host.max(std::span(state, 2));
-    if (state[0] < 0)
-      return true;
-    if (state[1] == 0)
-      return false;
+    if (host.max(moved) == 0)
+      break;
   }
-  return false;
+  return host.max(worst_of(x, c).inverted) < 0;
 }
 
 template <class S>

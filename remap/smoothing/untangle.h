@@ -22,6 +22,15 @@ inline double smallest_area(std::span<const PatchCell> cells, Point x)
   return least;
 }
 
+/// Mean 2A of a patch; around an inner node it does not depend on its place.
+inline double mean_area(const Patch& patch)
+{
+  double sum = 0;
+  for (const PatchCell& c : patch.cells)
+    sum += twice_area(patch.x, c.a, c.b);
+  return sum / static_cast<double>(patch.cells.size());
+}
+
 /// Place of the largest smallest area; the patch's own place if there is none
 /// better, or the areas grow without bound. A maximum of the least of n planes
 /// lies where three of them meet, on a line where two do: all are tried, a

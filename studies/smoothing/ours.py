@@ -42,13 +42,14 @@ class Ours:
             ctypes.c_size_t(len(tags)),
         )
 
-    def run(self, name, sweeps):
+    def run(self, name, sweeps, relaxation=1.0):
         """Where the nodes are then, and the processor's seconds."""
         out = self.x.copy()
         outcome = ctypes.c_int()
         seconds = self.lib.smoothing_run(
             name.encode(),
             int(sweeps),
+            ctypes.c_double(relaxation),
             out.ctypes.data_as(_double),
             ctypes.byref(outcome),
         )

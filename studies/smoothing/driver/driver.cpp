@@ -64,11 +64,13 @@ extern "C"
   /// @param[in,out] x     shape (nodes, 2)
   /// @param[out]    outcome of the call, 0 when ok
   /// @return seconds of the call alone
-  double smoothing_run(const char* name, int sweeps, double* x, int* outcome)
+  double smoothing_run(const char* name, int sweeps, double relaxation,
+                       double* x, int* outcome)
   {
     remap::Smoothing smoothing(
         *session.mesh,
-        {.smoother = *remap::find<remap::Smoothers>(name), .sweeps = sweeps},
+        {.smoother = *remap::find<remap::Smoothers>(name), .sweeps = sweeps,
+         .relaxation = relaxation},
         {});
     const std::span<double> nodes(x, 2 * session.kinds.size());
     const double begin = seconds();
