@@ -2,6 +2,7 @@
 
 #include "remap/smoothing/smooth.h"
 
+#include "remap/smoothing/cell_quality.h"
 #include "remap/smoothing/colouring.h"
 #include "remap/smoothing/surface.h"
 #include "remap/smoothing/untangle.h"
@@ -25,23 +26,6 @@ constexpr int max_passes = 100;
 /// Part of its patch's mean that a cell's area shall have after untangling.
 constexpr double sound = 1e-3;
 
-quality::Target target_of(std::span<const quality::Target> targets,
-                          std::int32_t c)
-{
-  return targets.empty() ? quality::equilateral : targets[c];
-}
-
-double quality_of(const Mesh& mesh, std::span<const double> x, Measure measure,
-                  std::span<const quality::Target> targets, std::int32_t cell)
-{
-  const Triple& n = mesh.cell(cell);
-  const Point a = point(x, n[0]);
-  const Point b = point(x, n[1]);
-  const Point c = point(x, n[2]);
-  return measure == Measure::radius_ratio
-             ? quality::radius_ratio(a, b, c)
-             : quality::shape(target_of(targets, cell), a, b, c);
-}
 } // namespace
 
 std::vector<std::string> SmoothingOptions::complaints() const
@@ -60,7 +44,7 @@ std::vector<std::string> SmoothingOptions::complaints() const
 
 Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
                      const Host& host)
-    : _mesh(&mesh), _options(std::move(options))
+    : _mesh(&mesh), _options(std::move(options)), _zigzag(mesh, host)
 {
   if (const auto all = _options.complaints(); not all.empty())
   {
@@ -403,8 +387,8 @@ bool Smoothing::untangle(std::span<double> x, const Constraints& c,
 }
 
 template <class S>
-void Smoothing::sweeps(std::span<double> x, const Constraints& c,
-                       const Host& host)
+void Smoothing::sweeps(std::span<double> x, std::span<const std::uint8_t> flags,
+                       const Constraints& c, bool surfaces, const Host& host)
 {
   for (int sweep = 0; sweep < _options.sweeps; ++sweep)
   {
@@ -421,6 +405,12 @@ void Smoothing::sweeps(std::span<double> x, const Constraints& c,
       }
       host.update_nodes(x, 2);
     }
+    if (surfaces)
+      longest = std::max(
+          longest, _zigzag.remove(x, flags, c.kinds,
+                                  {_options.geometry, _options.measure,
+                                   _options.threshold, c.targets},
+                                  host));
     double state[2] = {longest, -worst_of(x, c).quality};
     host.max(std::span(state, 2));
     _report.largest_step = std::max(_report.largest_step, state[0]);
@@ -442,9 +432,10 @@ Outcome Smoothing::smooth(std::span<double> x,
   if (fit)
     collect(flags, c);
   const Worst first = fit and finite ? worst_of(x, c) : Worst{};
-  double state[4] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, first.inverted,
-                     -first.quality};
-  host.max(std::span(state, 4));
+  double state[5] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, first.inverted,
+                     -first.quality,
+                     std::ranges::count(c.kinds, Kind::surface) > 0 ? 1. : 0.};
+  host.max(std::span(state, 5));
   if (state[0] > 0)
     return Outcome::wrong_size;
   if (state[1] > 0)
@@ -463,7 +454,7 @@ Outcome Smoothing::smooth(std::span<double> x,
     _report.untangled = static_cast<std::int32_t>(first.count);
     _report.worst_after = -host.max(-worst_of(x, c).quality);
   }
-  std::visit([&]<class S>(const S&) { sweeps<S>(x, c, host); },
+  std::visit([&]<class S>(const S&) { sweeps<S>(x, flags, c, state[4] > 0, host); },
              _options.smoother);
   _report.moved = static_cast<std::int32_t>(
       std::count(_shifted.begin(), _shifted.end(), 1));

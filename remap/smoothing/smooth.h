@@ -13,6 +13,7 @@
 #include "remap/smoothing/guide.h"
 #include "remap/smoothing/kind.h"
 #include "remap/smoothing/library.h"
+#include "remap/smoothing/zigzag.h"
 
 #include <span>
 #include <string>
@@ -141,7 +142,8 @@ private:
   void put(std::int32_t node, std::span<double> x, Point to);
   bool untangle(std::span<double> x, const Constraints& c, const Host& host);
   template <class S>
-  void sweeps(std::span<double> x, const Constraints& c, const Host& host);
+  void sweeps(std::span<double> x, std::span<const std::uint8_t> flags,
+              const Constraints& c, bool surfaces, const Host& host);
 
   /// A cell of a node's star: the other two nodes, and which vertex it is.
   struct StarCell
@@ -151,6 +153,7 @@ private:
 
   const Mesh* _mesh;
   SmoothingOptions _options;
+  Zigzag _zigzag;
   SmoothingReport _report;
   int _num_colours = 0;
   std::vector<std::int32_t> _colour;
