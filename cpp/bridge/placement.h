@@ -27,7 +27,8 @@ public:
   /// boundaries meet; shape (nodes).
   std::span<const ::remap::Kind> kinds() const { return _kinds; }
 
-  /// For the whole mesh: nodes of straight sides are where `start` has put them.
+  /// For the whole mesh: nodes of straight sides are where `start` has put
+  /// them.
   std::span<const ::remap::Kind> kinds_placed() const { return _placed; }
 
   /// 1 for nodes of free surfaces, shape (nodes).

@@ -22,8 +22,8 @@ struct Cubic
   Point at(double s) const
   {
     const double r = 1 - s;
-    return r * r * (1 + 2 * s) * a + s * s * (3 - 2 * s) * b
-           + (r * r * s) * u - (r * s * s) * v;
+    return r * r * (1 + 2 * s) * a + s * s * (3 - 2 * s) * b + (r * r * s) * u
+           - (r * s * s) * v;
   }
   Point first(double s) const
   {
@@ -94,8 +94,7 @@ Guide::Foot BoundaryCurve::foot(std::int32_t node, Point p) const
     return {point(_x, node), {1, 0}};
   const auto cubic = [&](std::int32_t a, std::int32_t b)
   {
-    Cubic c{point(_x, a), point(_x, b), point(_tangent, a),
-            point(_tangent, b)};
+    Cubic c{point(_x, a), point(_x, b), point(_tangent, a), point(_tangent, b)};
     const Point chord = c.b - c.a;
     const double h = length(chord);
     c.u = h * c.u;

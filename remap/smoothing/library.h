@@ -13,9 +13,8 @@
 
 namespace remap
 {
-using Smoothers =
-    std::tuple<smoother::Laplace, smoother::AverageArea,
-               smoother::AverageLength, smoother::Optimise,
-               smoother::OptimiseWorst>;
+using Smoothers = std::tuple<smoother::Laplace, smoother::AverageArea,
+                             smoother::AverageLength, smoother::Optimise,
+                             smoother::OptimiseWorst>;
 using SmootherChoice = Choice<Smoothers>;
 } // namespace remap

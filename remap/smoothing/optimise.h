@@ -34,11 +34,12 @@ constexpr double power(double f)
     return power<n / 2>(f) * power<n / 2>(f);
 }
 
-/// Σ f^n over the patch with the node at x, f = N/D; N = α p·p − 2β p·q + γ q·q
-/// and D = p × q, p = a − x, q = b − x. D is linear and N quadratic in x, so
+/// Σ f^n over the patch with the node at x, f = N/D; N = k/2 p·p + m·m/(2k) and
+/// D = p × q, p = a − x, q = b − x, m = q − r p. D is linear and N quadratic in
+/// x, so
 ///   ∇f  = ∇N/D − N ∇D/D²
-///   ∇²f = 2κ I/D − (∇N ∇Dᵀ + ∇D ∇Nᵀ)/D² + 2N ∇D ∇Dᵀ/D³,
-/// κ = α − 2β + γ: quadratic over linear, convex where D > 0, and so is f^n.
+///   ∇²f = ∇²N/D − (∇N ∇Dᵀ + ∇D ∇Nᵀ)/D² + 2N ∇D ∇Dᵀ/D³:
+/// quadratic over linear, convex where D > 0, and so is f^n.
 template <int n = 1>
 Distortion distortion_of_power(std::span<const PatchCell> cells, Point x)
 {
@@ -49,13 +50,14 @@ Distortion distortion_of_power(std::span<const PatchCell> cells, Point x)
     const Point p = c.a - x;
     const Point q = c.b - x;
     const double d = 1 / cross(p, q);
-    // ∇N and ∇D, both over D.
-    const Point gn = (2 * d) * ((w.beta - w.alpha) * p + (w.beta - w.gamma) * q);
+    const Point m = q - w.r * p;
+    const double rest = w.rest * (1 - w.r);
+    // ∇N, ∇D and ∇²N, all over D.
+    const Point gn = (-2 * d) * (w.own * p + rest * m);
     const Point gd = d * Point{c.a.y - c.b.y, c.b.x - c.a.x};
-    const double f =
-        d * (w.alpha * dot(p, p) - 2 * w.beta * dot(p, q) + w.gamma * dot(q, q));
+    const double kappa = 2 * d * (w.own + rest * (1 - w.r));
+    const double f = d * (w.own * dot(p, p) + w.rest * dot(m, m));
     const Point g = gn - f * gd;
-    const double kappa = 2 * d * (w.alpha - 2 * w.beta + w.gamma);
     const double xx = kappa - 2 * g.x * gd.x;
     const double yy = kappa - 2 * g.y * gd.y;
     const double xy = -(g.x * gd.y + g.y * gd.x);

@@ -22,9 +22,9 @@ struct PatchCell
   quality::Target target; ///< its shape, seen from the node
 };
 
-/// Cells around a node, one after the other counter-clockwise: each cell's `b` is
-/// the next one's `a`, but where the boundary is between. If `along` is set, the node may only move on that line;
-/// its length is 1.
+/// Cells around a node, one after the other counter-clockwise: each cell's `b`
+/// is the next one's `a`, but where the boundary is between. If `along` is set,
+/// the node may only move on that line; its length is 1.
 struct Patch
 {
   Point x;

@@ -102,8 +102,8 @@ Relaxation of_cells(const Mesh& mesh, double most,
 } // namespace
 
 Relaxation remap::relax(const Mesh& mesh, Geometry geometry, double most,
-                        std::span<const double> x_old,
-                        std::span<double> x_new, const Host& host)
+                        std::span<const double> x_old, std::span<double> x_new,
+                        const Host& host)
 {
   const Relaxation ours =
       geometry == Geometry::plane

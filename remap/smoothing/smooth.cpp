@@ -25,6 +25,9 @@ constexpr double least_step = 1e-10;
 constexpr int max_passes = 100;
 /// Part of its patch's mean that a cell's area shall have after untangling.
 constexpr double sound = 1e-3;
+/// Quality at which a cell is taken for inverted: from nearer to zero a barrier
+/// lets a node off by too small steps.
+constexpr double thin = 1e-6;
 
 } // namespace
 
@@ -44,7 +47,8 @@ std::vector<std::string> SmoothingOptions::complaints() const
 
 Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
                      const Host& host)
-    : _mesh(&mesh), _options(std::move(options)), _zigzag(mesh, host)
+    : _mesh(&mesh), _options(std::move(options)), _stars(mesh),
+      _zigzag(mesh, host)
 {
   if (const auto all = _options.complaints(); not all.empty())
   {
@@ -57,11 +61,7 @@ Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
   const auto last = std::max_element(_colour.begin(), _colour.end());
   _num_colours =
       static_cast<int>(host.max(last == _colour.end() ? 0.0 : 1.0 + *last));
-  std::size_t widest = 0;
-  for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
-    widest = std::max(widest, mesh.node_cells()[i].size());
-  build_stars();
-  _patch.reserve(widest);
+  _patch.reserve(_stars.widest());
   _cells.reserve(mesh.num_cells());
   _near.resize(mesh.num_cells());
   _before.resize(2 * static_cast<std::size_t>(mesh.num_nodes()));
@@ -69,46 +69,6 @@ Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
   _start.resize(_num_colours + 1);
   _flags.resize(mesh.num_nodes());
   _shifted.resize(mesh.num_nodes());
-}
-
-/// Cells around each node of ours, one after the other counter-clockwise from
-/// the boundary; around an inner node from its neighbour with the smallest
-/// global number: so sums over a patch do not depend on the number of ranks.
-void Smoothing::build_stars()
-{
-  const auto& around = _mesh->node_cells();
-  _stars.resize(around.entries.size());
-  for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
-  {
-    const auto cells = around[i];
-    const std::span star(_stars.data() + around.offsets[i], cells.size());
-    for (std::size_t k = 0; k < cells.size(); ++k)
-    {
-      const Triple& n = _mesh->cell(cells[k]);
-      const int v = n[0] == i ? 0 : (n[1] == i ? 1 : 2);
-      star[k] = {n[(v + 1) % 3], n[(v + 2) % 3], cells[k], v};
-    }
-    const auto id = [this](const StarCell& c) { return _mesh->node_ids()[c.a]; };
-    for (std::size_t k = 0; k < star.size(); ++k)
-    {
-      // The cell after the last one; else the start of a fan, of these the
-      // smallest; else, in a ring, the smallest.
-      const auto rank = [&](const StarCell& c)
-      {
-        const bool next = k > 0 and star[k - 1].b == c.a;
-        const bool starts = std::none_of(star.begin(), star.end(),
-                                         [&](const StarCell& o)
-                                         { return o.b == c.a; });
-        return std::pair(next ? 0 : (starts ? 1 : 2), id(c));
-      };
-      std::iter_swap(star.begin() + static_cast<std::ptrdiff_t>(k),
-                     std::min_element(
-                         star.begin() + static_cast<std::ptrdiff_t>(k),
-                         star.end(),
-                         [&](const StarCell& a, const StarCell& b)
-                         { return rank(a) < rank(b); }));
-    }
-  }
 }
 
 bool Smoothing::flag(std::span<const double> x,
@@ -152,8 +112,9 @@ bool Smoothing::sizes_fit(std::span<const double> x,
   const auto cells = static_cast<std::size_t>(_mesh->num_cells());
   return x.size() == 2 * n and flags.size() == n and c.kinds.size() == n
          and (any(Kind::curve) ? c.guide != nullptr : true)
-         and (any(Kind::slide) ? c.direction.size() == 2 * n
-                     : c.direction.empty() or c.direction.size() == 2 * n)
+         and (any(Kind::slide)
+                  ? c.direction.size() == 2 * n
+                  : c.direction.empty() or c.direction.size() == 2 * n)
          and (c.spacing.empty() or c.spacing.size() == facets)
          and (c.targets.empty() or c.targets.size() == cells);
 }
@@ -191,8 +152,7 @@ Smoothing::Worst Smoothing::worst_of(std::span<const double> x,
   Worst out;
   for (std::int32_t cell : _cells)
   {
-    const double one =
-        quality_of(*_mesh, x, _options.measure, c.targets, cell);
+    const double one = quality_of(*_mesh, x, _options.measure, c.targets, cell);
     out.quality = std::min(out.quality, one);
     if (not(one > 0))
     {
@@ -208,17 +168,7 @@ Smoothing::Worst Smoothing::worst_of(std::span<const double> x,
 Patch Smoothing::gather(std::int32_t node, std::span<const double> x,
                         const Constraints& c)
 {
-  const auto& around = _mesh->node_cells();
-  _patch.clear();
-  for (std::int32_t k = around.offsets[node]; k < around.offsets[node + 1]; ++k)
-  {
-    const StarCell& s = _stars[k];
-    quality::Target w = target_of(c.targets, s.cell);
-    if (not c.targets.empty())
-      for (std::int32_t v = 0; v < s.vertex; ++v)
-        w = w.next();
-    _patch.push_back({point(x, s.a), point(x, s.b), w});
-  }
+  _stars.gather(node, x, c.targets, _patch);
   Patch out{point(x, node), _patch, {}};
   if (c.kinds[node] == Kind::slide or c.kinds[node] == Kind::curve)
   {
@@ -230,16 +180,22 @@ Patch Smoothing::gather(std::int32_t node, std::span<const double> x,
   return out;
 }
 
+/// Is the worst cell of _patch at least so good with its node there? A worst
+/// cell that the move leaves as it is differs in its last digits; these must
+/// not decide, or the result would depend on them.
+bool Smoothing::no_worse(Point to, double floor) const
+{
+  constexpr double round_off = 1e-12;
+  const double q = worst(_patch, to, _options.measure);
+  return q > 0 and q >= floor - round_off;
+}
+
 void Smoothing::put(std::int32_t node, std::span<double> x, Point to)
 {
   x[2 * node] = to.x;
   x[2 * node + 1] = to.y;
   _shifted[node] = 1;
 }
-
-// A worst cell that the move leaves as it is differs in its last digits; these
-// must not decide, or the result would depend on them.
-constexpr double round_off = 1e-12;
 
 /// Try a move and halves of it: `place(part)` is where the node would be,
 /// `good` tells if it may. Returns the length of the step that was made.
@@ -272,14 +228,12 @@ Point Smoothing::come_back(std::int32_t node, std::span<double> x,
                            const Guide& guide)
 {
   const Point old = point(x, node);
-  const double floor = std::min(worst(_patch, old, _options.measure),
-                                _options.threshold);
+  const double floor =
+      std::min(worst(_patch, old, _options.measure), _options.threshold);
   accept(
-      node, x,
-      [&](double part)
+      node, x, [&](double part)
       { return old + std::min(part, 1.0) * (guide.foot(node, old).at - old); },
-      [&](Point to)
-      { return worst(_patch, to, _options.measure) >= floor - round_off; });
+      [&](Point to) { return no_worse(to, floor); });
   return point(x, node);
 }
 
@@ -303,9 +257,8 @@ double Smoothing::visit(std::int32_t node, std::span<double> x,
       },
       [&](Point to)
       {
-        const double now = worst(_patch, to, _options.measure);
-        return now >= q - round_off
-               or (now >= least - round_off
+        return no_worse(to, q)
+               or (no_worse(to, least)
                    and distortion(_patch, to) < distortion(_patch, old));
       });
 }
@@ -346,8 +299,7 @@ double Smoothing::visit_surface(std::int32_t node, std::span<double> x,
                    : surface::at<Geometry::axisymmetric>(before, old, after,
                                                          to);
       },
-      [&](Point to)
-      { return worst(_patch, to, _options.measure) >= floor - round_off; });
+      [&](Point to) { return no_worse(to, floor); });
 }
 
 /// Until no cell that is worked on is inverted, nor so thin that a barrier has
@@ -406,11 +358,11 @@ void Smoothing::sweeps(std::span<double> x, std::span<const std::uint8_t> flags,
       host.update_nodes(x, 2);
     }
     if (surfaces)
-      longest = std::max(
-          longest, _zigzag.remove(x, flags, c.kinds,
-                                  {_options.geometry, _options.measure,
-                                   _options.threshold, c.targets},
-                                  host));
+      longest =
+          std::max(longest, _zigzag.remove(x, flags, c.kinds,
+                                           {_options.geometry, _options.measure,
+                                            _options.threshold, c.targets},
+                                           host));
     double state[2] = {longest, -worst_of(x, c).quality};
     host.max(std::span(state, 2));
     _report.largest_step = std::max(_report.largest_step, state[0]);
@@ -443,7 +395,7 @@ Outcome Smoothing::smooth(std::span<double> x,
   _report.worst_before = _report.worst_after = -state[3];
   _report.worst_cell = static_cast<std::int64_t>(state[2]);
   std::fill(_shifted.begin(), _shifted.end(), std::uint8_t(0));
-  if (_report.worst_cell >= 0)
+  if (not(_report.worst_before > thin))
   {
     std::copy(x.begin(), x.end(), _before.begin());
     if (not untangle(x, c, host))
@@ -454,7 +406,8 @@ Outcome Smoothing::smooth(std::span<double> x,
     _report.untangled = static_cast<std::int32_t>(first.count);
     _report.worst_after = -host.max(-worst_of(x, c).quality);
   }
-  std::visit([&]<class S>(const S&) { sweeps<S>(x, flags, c, state[4] > 0, host); },
+  std::visit([&]<class S>(const S&)
+             { sweeps<S>(x, flags, c, state[4] > 0, host); },
              _options.smoother);
   _report.moved = static_cast<std::int32_t>(
       std::count(_shifted.begin(), _shifted.end(), 1));

@@ -13,6 +13,7 @@
 #include "remap/smoothing/guide.h"
 #include "remap/smoothing/kind.h"
 #include "remap/smoothing/library.h"
+#include "remap/smoothing/stars.h"
 #include "remap/smoothing/zigzag.h"
 
 #include <span>
@@ -117,7 +118,6 @@ private:
   [[nodiscard]] bool sizes_fit(std::span<const double> x,
                                std::span<const std::uint8_t> flags,
                                const Constraints& c) const;
-  void build_stars();
   void collect(std::span<const std::uint8_t> flags, const Constraints& c);
   /// Qualities of the cells that are worked on.
   struct Worst
@@ -138,6 +138,7 @@ private:
   template <class Place, class Good>
   double accept(std::int32_t node, std::span<double> x, Place&& place,
                 Good&& good);
+  [[nodiscard]] bool no_worse(Point to, double floor) const;
   Point come_back(std::int32_t node, std::span<double> x, const Guide& guide);
   void put(std::int32_t node, std::span<double> x, Point to);
   bool untangle(std::span<double> x, const Constraints& c, const Host& host);
@@ -145,20 +146,14 @@ private:
   void sweeps(std::span<double> x, std::span<const std::uint8_t> flags,
               const Constraints& c, bool surfaces, const Host& host);
 
-  /// A cell of a node's star: the other two nodes, and which vertex it is.
-  struct StarCell
-  {
-    std::int32_t a, b, cell, vertex;
-  };
-
   const Mesh* _mesh;
   SmoothingOptions _options;
+  Stars _stars;
   Zigzag _zigzag;
   SmoothingReport _report;
   int _num_colours = 0;
   std::vector<std::int32_t> _colour;
   double _floor = 0;                  // no cell gets worse than that
-  std::vector<StarCell> _stars;       // rows as in the mesh's node_cells
   std::vector<std::int32_t> _order;   // flagged nodes of ours, by colour
   std::vector<std::int32_t> _start;   // first of each colour in _order
   std::vector<std::int32_t> _cells;   // around them, each once

@@ -80,8 +80,8 @@ struct Step
   double second = 0; ///< of c, so that the plane area is kept [m]
 };
 
-/// Steps after which one of the turns at b and c, of opposite signs, is gone and
-/// the other one smaller; none where the way turns back along its chord.
+/// Steps after which one of the turns at b and c, of opposite signs, is gone
+/// and the other one smaller; none where the way turns back along its chord.
 ///
 /// Across the chord heights are linear in the steps: b is above the line a c by
 /// e, c above the line b d by f.
@@ -102,7 +102,8 @@ inline Step straighten(Point a, Point b, Point c, Point d)
   const double second = f / (ratio + rc);
   if (not(first * second < 0))
     return out;
-  out.first = -std::copysign(std::min(std::abs(first), std::abs(second)), first);
+  out.first =
+      -std::copysign(std::min(std::abs(first), std::abs(second)), first);
   out.second = -ratio * out.first;
   return out;
 }
@@ -118,7 +119,8 @@ inline std::pair<Point, Point> pair_at(Geometry geometry, Point a, Point b,
     return {first, second};
   const auto six = [](Point p, Point q, Point r)
   { return twice_area(p, q, r) * (p.x + q.x + r.x); };
-  return {first, keep_volume(first, second, d,
-                             six(first, c, d) - six(a, first, c) + six(a, b, c))};
+  return {first,
+          keep_volume(first, second, d,
+                      six(first, c, d) - six(a, first, c) + six(a, b, c))};
 }
 } // namespace remap::surface

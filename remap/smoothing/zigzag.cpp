@@ -59,8 +59,8 @@ void Zigzag::colour(const Host& host)
       const std::int32_t in = _mesh->boundary_facets(a)[0];
       const std::int32_t out = _mesh->boundary_facets(b)[1];
       if (in >= 0 and out >= 0)
-        waiting.push_back({c, k, _mesh->facet(in)[0], a, b,
-                           _mesh->facet(out)[1]});
+        waiting.push_back(
+            {c, k, _mesh->facet(in)[0], a, b, _mesh->facet(out)[1]});
     }
   const auto rank = [this](const Pair& p)
   { return priority(*_mesh, p.cell, p.local); };
@@ -115,8 +115,7 @@ double Zigzag::worst_around(const Pair& p, std::span<const double> x,
   double q = 1;
   for (std::int32_t i : {p.first, p.second})
     for (std::int32_t c : _mesh->node_cells()[i])
-      q = std::min(q,
-                   quality_of(*_mesh, x, rules.measure, rules.targets, c));
+      q = std::min(q, quality_of(*_mesh, x, rules.measure, rules.targets, c));
   return q;
 }
 
@@ -135,8 +134,8 @@ bool Zigzag::move(const Pair& p, std::span<double> x, const Rules& rules) const
   };
   for (double part : {1.0, 0.5, 0.25})
   {
-    const auto [first, second] = surface::pair_at(rules.geometry, a, b, c, d,
-                                                  part, step);
+    const auto [first, second] =
+        surface::pair_at(rules.geometry, a, b, c, d, part, step);
     put(first, second);
     const double now = worst_around(p, x, rules);
     if (now > 0 and now >= floor)
@@ -150,9 +149,8 @@ double Zigzag::remove(std::span<double> x, std::span<const std::uint8_t> flags,
                       std::span<const Kind> kinds, const Rules& rules,
                       const Host& host)
 {
-  const bool any =
-      std::ranges::any_of(_pairs, [&](const Pair& p)
-                          { return wanted(p, x, flags, kinds); });
+  const bool any = std::ranges::any_of(_pairs, [&](const Pair& p)
+                                       { return wanted(p, x, flags, kinds); });
   if (host.max(any ? 1.0 : 0.0) == 0)
     return 0;
   double longest = 0;
@@ -171,8 +169,8 @@ double Zigzag::remove(std::span<double> x, std::span<const std::uint8_t> flags,
       const double post[width] = {p.local + 1.0, first.x, first.y, second.x,
                                   second.y};
       std::copy(post, post + width, _moves.begin() + std::ptrdiff_t(at));
-      longest = std::max({longest, dot(first - b, first - b),
-                          dot(second - c, second - c)});
+      longest = std::max(
+          {longest, dot(first - b, first - b), dot(second - c, second - c)});
     }
     host.update_cells(_moves, width);
     for (std::int32_t c : _cells)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: takes the zigzag out of a free surface. A node that keeps the area
-// between its two neighbours keeps a zigzag too; two neighbours that move
+// METHOD 4.1: takes the zigzag out of a free surface. A node that keeps the
+// area between its two neighbours keeps a zigzag too; two neighbours that move
 // together can lose it, and keep the area (the volume) to round-off.
 #pragma once
 
@@ -51,7 +51,8 @@ public:
                 const Host& host);
 
 private:
-  /// A facet of a cell of ours, and the facets before and after on the boundary.
+  /// A facet of a cell of ours, and the facets before and after on the
+  /// boundary.
   struct Pair
   {
     std::int32_t cell, local, before, first, second, after;

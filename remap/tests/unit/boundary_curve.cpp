@@ -194,9 +194,9 @@ TEST_CASE("profile: nodes are held to it and slide along it",
     x[i] = at;
     x[i + 1] = foot + t * (1 - foot);
     const bool end = s == 0 or s == 1;
-    kinds.push_back(t == 0 and not end                   ? Kind::curve
-                    : meshes::on_outline({s, t})         ? Kind::fixed
-                                                         : Kind::free);
+    kinds.push_back(t == 0 and not end           ? Kind::curve
+                    : meshes::on_outline({s, t}) ? Kind::fixed
+                                                 : Kind::free);
   }
   const auto x0 = x;
   Smoothing smoothing(mesh, {.sweeps = 50}, {});

@@ -16,8 +16,9 @@ using meshes::Diagonal;
 namespace
 {
 /// Largest loss of a cell as the transport finds it, in one sub-cycle.
-double loss_of(const Mesh& mesh, Geometry geometry, std::span<const double> from,
-               std::span<const double> to, double max_loss = 1e9)
+double loss_of(const Mesh& mesh, Geometry geometry,
+               std::span<const double> from, std::span<const double> to,
+               double max_loss = 1e9)
 {
   Remapper remapper(mesh, {.geometry = geometry,
                            .max_loss = max_loss,
@@ -25,8 +26,7 @@ double loss_of(const Mesh& mesh, Geometry geometry, std::span<const double> from
   std::vector<double> u(mesh.num_cells(), 1.0);
   const Field field{.values = u};
   Ledger ledger;
-  REQUIRE(remapper.remap(from, to, {&field, 1}, {}, {}, ledger)
-          == Outcome::ok);
+  REQUIRE(remapper.remap(from, to, {&field, 1}, {}, {}, ledger) == Outcome::ok);
   return remapper.report().loss;
 }
 } // namespace

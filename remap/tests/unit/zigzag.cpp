@@ -74,9 +74,9 @@ std::vector<double> smoothed(const Block& block, Geometry geometry, int sweeps)
   const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
   Smoothing smoothing(mesh, {.geometry = geometry, .sweeps = sweeps}, {});
   auto x = block.x;
-  REQUIRE(smoothing.smooth(x, flags,
-                           {.kinds = block.kinds, .spacing = spacing}, {})
-          == Outcome::ok);
+  REQUIRE(
+      smoothing.smooth(x, flags, {.kinds = block.kinds, .spacing = spacing}, {})
+      == Outcome::ok);
   return x;
 }
 } // namespace
@@ -87,8 +87,7 @@ TEST_CASE("zigzag: moves of one node along its chord keep it", "[zigzag]")
   const Point a{0, 0}, c{2, 0};
   Point b{1, 0.5};
   for (int k = 0; k < 10; ++k)
-    b = surface::at<Geometry::plane>(a, b, c,
-                                     surface::part(a, b, c, 1.0, 1.0));
+    b = surface::at<Geometry::plane>(a, b, c, surface::part(a, b, c, 1.0, 1.0));
   CHECK(b.y == 0.5);
 }
 
@@ -173,10 +172,11 @@ TEST_CASE("zigzag: the same on any number of ranks", "[zigzag][ranks]")
   std::vector<int> owner;
   for (std::size_t c = 0; c < block.data.cells.size() / 3; ++c)
     owner.push_back(
-        how == 0 ? static_cast<int>(c * 7 % std::size_t(size))
-                 : std::min(size - 1, int((block.data.x[2 * block.data.cells[3 * c]]
-                                           - 0.5)
-                                          * size)));
+        how == 0
+            ? static_cast<int>(c * 7 % std::size_t(size))
+            : std::min(size - 1,
+                       int((block.data.x[2 * block.data.cells[3 * c]] - 0.5)
+                           * size)));
   ranks::World world(block.data, owner, size);
   std::vector<double> gap(size, 0.0);
   world.run(

@@ -69,13 +69,14 @@ extern "C"
   {
     remap::Smoothing smoothing(
         *session.mesh,
-        {.smoother = *remap::find<remap::Smoothers>(name), .sweeps = sweeps,
+        {.smoother = *remap::find<remap::Smoothers>(name),
+         .sweeps = sweeps,
          .relaxation = relaxation},
         {});
     const std::span<double> nodes(x, 2 * session.kinds.size());
     const double begin = seconds();
-    *outcome = static_cast<int>(smoothing.smooth(
-        nodes, session.flags, {.kinds = session.kinds}, {}));
+    *outcome = static_cast<int>(
+        smoothing.smooth(nodes, session.flags, {.kinds = session.kinds}, {}));
     return seconds() - begin;
   }
 }
