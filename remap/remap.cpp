@@ -2,44 +2,11 @@
 
 #include "remap/remap.h"
 
-#include "remap/dual/dual.h"
-#include "remap/transport/kernel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 using namespace remap;
-
-namespace
-{
-template <Geometry G>
-Moments cell_moments(const Mesh& mesh, std::int32_t c,
-                     std::span<const double> x)
-{
-  const Triple& n = mesh.cell(c);
-  return triangle<G>(point(x, n[0]), point(x, n[1]), point(x, n[2]));
-}
-
-/// Call with the scheme and the number of components as constants.
-template <class F>
-void with_components(int n, F&& call)
-{
-  switch (n)
-  {
-  case 1:
-    return call(std::integral_constant<int, 1>{});
-  case 2:
-    return call(std::integral_constant<int, 2>{});
-  case 3:
-    return call(std::integral_constant<int, 3>{});
-  case 4:
-    return call(std::integral_constant<int, 4>{});
-  default:
-    return call(std::integral_constant<int, 0>{});
-  }
-}
-} // namespace
 
 std::vector<std::string> Options::complaints() const
 {
@@ -48,8 +15,13 @@ std::vector<std::string> Options::complaints() const
     out.push_back("max_loss: must be positive");
   if (max_cycles < 1)
     out.push_back("max_cycles: must be at least 1");
-  if (cell_components < 0 or nodal_components < 0)
-    out.push_back("cell_components, nodal_components: must not be negative");
+  if (cell_components < 0 or nodal_components < 0 or point_components < 0)
+    out.push_back("cell_components, point_components, nodal_components: must "
+                  "not be negative");
+  if (point_components > 0 and not points)
+    out.push_back("point_components: points are needed");
+  if (per_mass and (nodal_components < 1 or cell_components < 1))
+    out.push_back("per_mass: cell_components and nodal_components are needed");
   return out;
 }
 
@@ -63,50 +35,76 @@ Remapper::Remapper(const Mesh& mesh, Options options)
       text += line + "\n";
     throw std::invalid_argument(text);
   }
-  const auto facets = static_cast<std::size_t>(mesh.num_facets());
-  const auto cells = static_cast<std::size_t>(mesh.num_cells());
-  _cells.reserve(mesh.cell_cells(), mesh.owned_cells(), 2 * facets,
-                 _options.cell_components);
-  if (_options.nodal_components > 0)
+  const Options& o = _options;
+  const bool sides = looks_at_sides(o.scheme);
+  const auto nodes = static_cast<std::size_t>(mesh.num_nodes());
+  _cells.reserve(mesh, sides, o.per_mass, widest_block(o.cell_components));
+  if (o.point_components > 0)
   {
-    std::size_t boundary = 0;
-    for (std::int32_t f = 0; f < mesh.num_facets(); ++f)
-      boundary += mesh.facet_cells(f)[1] < 0 ? 1 : 0;
-    _nodes.reserve(mesh.node_nodes(), mesh.owned_nodes(),
-                   6 * cells + 4 * boundary, _options.nodal_components);
-    _flags.resize(mesh.num_nodes());
+    const Mesh& fine = o.points->mesh();
+    _points = std::make_unique<Points>();
+    _points->volumes.reserve(fine, sides, false,
+                             widest_block(o.point_components));
+    _points->x.resize(std::size_t(2) * fine.num_nodes());
+    _points->y.resize(_points->x.size());
+    _points->moved.resize(fine.num_nodes());
   }
-  _x.resize(std::size_t(2) * mesh.num_nodes());
-  _y.resize(std::size_t(2) * mesh.num_nodes());
-  _moved.assign(mesh.num_nodes(), 0);
-  _moved_nodes.reserve(mesh.num_nodes());
+  if (o.nodal_components > 0)
+  {
+    _nodes.reserve(mesh, o.per_mass, widest_block(o.nodal_components));
+    _flags.resize(nodes);
+  }
+  if (o.per_mass)
+  {
+    _amounts.inner.resize(_cells.inner.from.size());
+    _amounts.outer.resize(_cells.outer.from.size());
+  }
+  _x.resize(2 * nodes);
+  _y.resize(2 * nodes);
+  _moved.assign(nodes, 0);
+  _moved_nodes.reserve(nodes);
 }
 
 bool Remapper::fits(const Field& field, std::int32_t num, int components) const
 {
   const int n = field.components;
+  const auto size = static_cast<std::size_t>(n);
   const bool any_open = std::find(_options.boundaries.begin(),
                                   _options.boundaries.end(), Boundary::open)
                         != _options.boundaries.end();
   return n >= 1 and n <= components and field.group >= 1
-         and n % field.group == 0
-         and field.values.size() == std::size_t(n) * num
+         and field.group <= largest_group and n % field.group == 0
+         and field.values.size() == size * num
+         and field.least.size() == field.most.size()
+         and (field.weights.empty()
+              or field.weights.size() == static_cast<std::size_t>(field.group))
+         and (field.least.empty() or field.least.size() == size)
          and (not any_open
-              or field.inflow.size() == n * _options.boundaries.size());
+              or field.inflow.size() == size * _options.boundaries.size());
 }
 
 bool Remapper::sizes_fit(std::span<const double> x_old,
                          std::span<const double> x_new,
-                         std::span<const Field> cells,
-                         std::span<const Field> nodes) const
+                         const Fields& fields) const
 {
-  const auto cell_fits = [this](const Field& f)
-  { return fits(f, _mesh->num_cells(), _options.cell_components); };
-  const auto node_fits = [this](const Field& f)
-  { return fits(f, _mesh->num_nodes(), _options.nodal_components); };
+  const auto all_fit =
+      [this](std::span<const Field> all, std::int32_t num, int components)
+  {
+    return std::all_of(all.begin(), all.end(), [&](const Field& f)
+                       { return fits(f, num, components); });
+  };
+  const Options& o = _options;
+  const auto density = static_cast<std::size_t>(fields.density);
   return x_old.size() == _x.size() and x_new.size() == _x.size()
-         and std::all_of(cells.begin(), cells.end(), cell_fits)
-         and std::all_of(nodes.begin(), nodes.end(), node_fits);
+         and all_fit(fields.cells, _mesh->num_cells(), o.cell_components)
+         and all_fit(fields.points, _points ? _points->volumes.num : 0,
+                     o.point_components)
+         and all_fit(fields.nodes, _mesh->num_nodes(), o.nodal_components)
+         and all_fit(fields.per_mass, _mesh->num_nodes(), o.nodal_components)
+         and (fields.per_mass.empty()
+              or (o.per_mass and fields.density >= 0
+                  and density < fields.cells.size()
+                  and fields.cells[density].components == 1));
 }
 
 void Remapper::find_touched(std::span<const double> x_old,
@@ -126,18 +124,47 @@ void Remapper::find_touched(std::span<const double> x_old,
   for (std::int32_t i : _moved_nodes)
     for (std::int32_t c : _mesh->node_cells()[i])
       _cells.touch(c);
-  // In the order of memory, whichever way they were found.
-  std::sort(_cells.touched.begin(), _cells.touched.end());
+  _cells.order();
+  _cells.find_facets(_moved);
   if (_dual)
   {
     for (std::int32_t c : _cells.touched)
       for (std::int32_t i : _mesh->cell(c))
         _nodes.touch(i);
-    std::sort(_nodes.touched.begin(), _nodes.touched.end());
+    _nodes.order();
   }
+  if (_fine)
+    touch_points();
   _report = {};
   _report.moved_nodes = static_cast<std::int32_t>(_moved_nodes.size());
   _report.touched_cells = static_cast<std::int32_t>(_cells.touched.size());
+}
+
+/// All points of a cell change when one of its nodes moves: its centroid does.
+void Remapper::touch_points()
+{
+  CellVolumes& v = _points->volumes;
+  const int points = _options.points->points();
+  v.clear();
+  std::fill(_points->moved.begin(), _points->moved.end(), std::uint8_t(0));
+  place_points(_cells.touched, _x_old, _points->x);
+  place_points(_cells.touched, _x_new, _points->y);
+  for (std::int32_t c : _cells.touched)
+    for (std::int32_t q = points * c; q < points * (c + 1); ++q)
+    {
+      v.touch(q);
+      for (std::int32_t i : v.mesh->cell(q))
+        _points->moved[i] = not(point(_points->x, i) == point(_points->y, i));
+    }
+  v.find_facets(_points->moved);
+}
+
+void Remapper::place_points(std::span<const std::int32_t> cells,
+                            std::span<const double> from,
+                            std::vector<double>& to)
+{
+  for (std::int32_t c : cells)
+    _options.points->place(c, from, to);
 }
 
 /// A ghost node may change because of a cell that we do not see; its owner must
@@ -152,109 +179,63 @@ void Remapper::exchange_touched(const Host& host)
     for (std::int32_t i = _mesh->owned_nodes(); i < _mesh->num_nodes(); ++i)
       if (_flags[i] > 0)
         _nodes.touch(i);
-    _nodes.close_ring();
+    _nodes.close_rings(rings_of(_options.nodal_scheme));
   }
-  _cells.close_ring();
+  const int rings = rings_of(_options.scheme);
+  _cells.close_rings(rings);
+  if (not _fine)
+    return;
+  _points->volumes.close_rings(rings);
+  place_points(_cells.ring, _x_old, _points->x);
 }
 
 template <Geometry G>
 void Remapper::measure(bool with_ring, const Host& host)
 {
-  const auto cell = [this](std::int32_t c)
+  const auto both = [with_ring](auto& volumes, std::span<const double> x)
   {
-    const Moments m = cell_moments<G>(*_mesh, c, _x);
-    _cells.volume[c] = m.v;
-    _cells.centroid[c] = m.centroid();
+    volumes.template measure<G>(volumes.touched, x);
+    if (with_ring)
+      volumes.template measure<G>(volumes.ring, x);
   };
-  const auto node = [this](std::int32_t i)
-  {
-    const Moments m = dual::volume<G>(*_mesh, i, _x);
-    _nodes.volume[i] = m.v;
-    _nodes.centroid[i] = m.centroid();
-  };
-  std::for_each(_cells.touched.begin(), _cells.touched.end(), cell);
-  std::for_each(_nodes.touched.begin(), _nodes.touched.end(), node);
-  if (with_ring)
-  {
-    std::for_each(_cells.ring.begin(), _cells.ring.end(), cell);
-    std::for_each(_nodes.ring.begin(), _nodes.ring.end(), node);
-  }
-  // The corners around a ghost node are not all here.
+  both(_cells, _x);
+  if (_fine)
+    both(_points->volumes, _points->x);
   if (_dual)
-    host.update_nodes(
-        std::span(&_nodes.centroid[0].x, std::size_t(2) * _nodes.num), 2);
+  {
+    both(_nodes, _x);
+    _nodes.update_centroids(host);
+  }
 }
 
 /// Volumes at y.
 template <Geometry G>
 void Remapper::measure_next(std::span<const double> y)
 {
-  for (std::int32_t c : _cells.touched)
-    _cells.next[c] = cell_moments<G>(*_mesh, c, y).v;
-  for (std::int32_t i : _nodes.touched)
-    _nodes.next[i] = dual::volume<G>(*_mesh, i, y).v;
+  _cells.measure_next<G>(y);
+  if (_fine)
+    _points->volumes.measure_next<G>(_points->y);
+  if (_dual)
+    _nodes.measure_next<G>(y);
 }
 
 /// Does a cell of any rank have no positive volume? Then the report names it.
-bool Remapper::inverted(std::span<const double> volumes, const Host& host)
+bool Remapper::inverted(bool at_end, const Host& host)
 {
-  double worst = -1;
-  for (std::int32_t c : _cells.touched)
-    if (c < _mesh->owned_cells() and not(volumes[c] > 0))
-      worst = std::max(worst, static_cast<double>(_mesh->cell_ids()[c]));
+  const double worst = _cells.inverted(at_end ? _cells.next : _cells.volume);
   _report.worst_cell = static_cast<std::int64_t>(host.max(worst));
   return _report.worst_cell >= 0;
-}
-
-template <Geometry G>
-void Remapper::sweep_dual(std::int32_t c)
-{
-  const Triple& n = _mesh->cell(c);
-  const std::int32_t owned = _mesh->owned_nodes();
-  const dual::Corners before = dual::corners(*_mesh, c, _x);
-  const dual::Corners after = dual::corners(*_mesh, c, _y);
-  for (int i = 0; i < 3; ++i)
-  {
-    const int j = (i + 1) % 3;
-    if (n[i] < owned or n[j] < owned)
-      _nodes.sweep<G>(dual::facet(before, after, i), n[i], n[j], -1);
-    const std::int32_t f = _mesh->cell_facets(c)[i];
-    if (not _mesh->on_boundary(f) or not(_moved[n[i]] or _moved[n[j]]))
-      continue;
-    const Point m0 = middle(before.v[i], before.v[j]);
-    const Point m1 = middle(after.v[i], after.v[j]);
-    const std::int32_t marker = _mesh->marker(f);
-    if (n[i] < owned)
-      _nodes.sweep<G>({before.v[i], m0, after.v[i], m1}, n[i], -1, marker);
-    if (n[j] < owned)
-      _nodes.sweep<G>({m0, before.v[j], m1, after.v[j]}, n[j], -1, marker);
-  }
 }
 
 /// Regions swept between _x and _y.
 template <Geometry G>
 void Remapper::sweep()
 {
-  _cells.drop_pieces();
-  _nodes.drop_pieces();
-  const std::int32_t owned = _mesh->owned_cells();
-  for (std::int32_t c : _cells.touched)
-  {
-    for (std::int32_t f : _mesh->cell_facets(c))
-    {
-      const auto [left, right] = _mesh->facet_cells(f);
-      const auto [p, q] = _mesh->facet(f);
-      // A facet with a moved end has both its cells in the list: once is
-      // enough.
-      if (left != c or not(_moved[p] or _moved[q])
-          or not(left < owned or (right >= 0 and right < owned)))
-        continue;
-      _cells.sweep<G>({point(_x, p), point(_x, q), point(_y, p), point(_y, q)},
-                      left, right, right < 0 ? _mesh->marker(f) : -1);
-    }
-    if (_dual)
-      sweep_dual<G>(c);
-  }
+  _cells.sweep_all<G>(_x, _y);
+  if (_fine)
+    _points->volumes.sweep_all<G>(_points->x, _points->y);
+  if (_dual)
+    _nodes.sweep_all<G>(_cells.touched, _moved, _x, _y);
 }
 
 /// Moved nodes at part `at` of their way, into _y; exact at the end.
@@ -266,6 +247,8 @@ void Remapper::place(double at)
       const std::size_t k = 2 * static_cast<std::size_t>(i) + d;
       _y[k] = at < 1 ? _x_old[k] + at * (_x_new[k] - _x_old[k]) : _x_new[k];
     }
+  if (_fine)
+    place_points(_cells.touched, _y, _points->y);
 }
 
 /// Divide what is left of the way until no volume loses too much in the next
@@ -283,8 +266,12 @@ Outcome Remapper::choose_cycle(double at, int& left, const Host& host)
   {
     place(left == 1 ? 1 : at + (1 - at) / left);
     sweep<G>();
-    const double loss =
-        host.max(std::max(_cells.largest_loss(), _nodes.largest_loss()));
+    double loss = _cells.largest_loss();
+    if (_fine)
+      loss = std::max(loss, _points->volumes.largest_loss());
+    if (_dual)
+      loss = std::max(loss, _nodes.largest_loss());
+    loss = host.max(loss);
     if (_report.cycles == 0 and left == 1)
       _report.loss = loss;
     if (loss <= (1 + slack) * _options.max_loss)
@@ -296,61 +283,118 @@ Outcome Remapper::choose_cycle(double at, int& left, const Host& host)
   }
 }
 
+/// All fields over one kind of volumes; returns the next entry of the book.
+std::size_t Remapper::carry_all(ControlVolumes& volumes,
+                                std::span<const Field> fields,
+                                const Scheme& scheme, const Halo& halo,
+                                const Host& host, std::size_t entry,
+                                int with_amounts)
+{
+  if (not fields.empty())
+    fit_gradients(volumes, scheme);
+  for (std::size_t k = 0; k < fields.size(); ++k)
+  {
+    const auto n = static_cast<std::size_t>(fields[k].components);
+    const bool noted = static_cast<int>(k) == with_amounts;
+    carry_field(volumes, fields[k],
+                {.scheme = scheme,
+                 .boundaries = _options.boundaries,
+                 .halo = halo,
+                 .host = host,
+                 .amounts = noted ? &_amounts : nullptr},
+                std::span(_book).subspan(entry, n));
+    entry += n;
+  }
+  return entry;
+}
+
+/// Fields per mass, after the density has travelled.
+template <Geometry G>
+void Remapper::carry_masses(const Fields& fields, std::size_t entry,
+                            const Host& host)
+{
+  _cells.split(_x, _y, _amounts.inner, _amounts.outer, _nodes.passing);
+  _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(),
+                       fields.cells[fields.density].values, _x, _y, host);
+  _nodes.exchange_masses<G>(_cells.touched, _moved, _x, _y);
+  _report.mass_loss =
+      std::max(_report.mass_loss, host.max(_nodes.largest_loss()));
+  fit_gradients(_nodes, _options.nodal_scheme);
+  for (const Field& field : fields.per_mass)
+  {
+    const auto n = static_cast<std::size_t>(field.components);
+    const double part = carry_field(_nodes, field,
+                                    {.scheme = _options.nodal_scheme,
+                                     .boundaries = _options.boundaries,
+                                     .halo = _node_halo,
+                                     .host = host,
+                                     .kinetic = true},
+                                    std::span(_book).subspan(entry, n));
+    _report.kinetic_part = std::min(_report.kinetic_part, part);
+    entry += n;
+  }
+}
+
 /// One sub-cycle for all fields.
-void Remapper::carry(std::span<const Field> cells, std::span<const Field> nodes,
-                     const Host& host)
+template <Geometry G>
+void Remapper::carry(const Fields& fields, const Host& host)
 {
   const auto book_volume = [this](const ControlVolumes& cv, Exchange& book)
   {
-    for (std::int32_t k : cv.outside)
+    for (std::size_t p = 0; p < cv.outer.count; ++p)
     {
-      const Piece& p = cv.pieces[k];
-      const bool in = p.from < 0;
-      const Boundary kind = kernel::kind_of(_options.boundaries, p.marker);
-      if ((in ? p.to : p.from) < cv.owned)
-        book[std::size_t(kernel::way(kind, in))] += in ? p.volume : -p.volume;
+      const bool in = cv.outer.from[p] < 0;
+      const Boundary kind = kind_of(_options.boundaries, cv.marker[p]);
+      if ((in ? cv.outer.to[p] : cv.outer.from[p]) < cv.owned)
+        book[std::size_t(way(kind, in))] +=
+            in ? cv.outer.volume[p] : -cv.outer.volume[p];
     }
   };
-  std::size_t entry = 2;
-  const auto all = [&](ControlVolumes& cv, std::span<const Field> fields,
-                       const Scheme& scheme, const auto& halo)
-  {
-    const auto one = [&]<class S>(const S&, const Field& field)
-    {
-      const std::span book = std::span(_book).subspan(entry, field.components);
-      with_components(field.components,
-                      [&]<int NC>(std::integral_constant<int, NC>)
-                      {
-                        kernel::transport<S, NC>(cv, field, _options.boundaries,
-                                                 book, halo);
-                      });
-      halo(field.values, field.components);
-      entry += field.components;
-    };
-    std::visit(
-        [&]<class S>(const S& s)
-        {
-          if constexpr (S::linear)
-            for (std::int32_t i : cv.touched)
-              if (i < cv.owned and cv.first[i] >= 0)
-                kernel::fit(cv, i);
-          for (const Field& field : fields)
-            one(s, field);
-        },
-        scheme);
-  };
   book_volume(_cells, _book[0]);
-  book_volume(_nodes, _book[1]);
-  all(_cells, cells, _options.scheme,
-      [&host](std::span<double> v, int block) { host.update_cells(v, block); });
-  all(_nodes, nodes, _options.nodal_scheme,
-      [&host](std::span<double> v, int block) { host.update_nodes(v, block); });
+  if (_dual)
+    book_volume(_nodes, _book[1]);
+  if (_masses)
+    _nodes.keep_density<G>(_cells.touched, fields.cells[fields.density].values,
+                           _x);
+  const Options& o = _options;
+  std::size_t entry = carry_all(_cells, fields.cells, o.scheme, _cell_halo,
+                                host, 2, _masses ? fields.density : -1);
+  if (_fine)
+    entry = carry_all(_points->volumes, fields.points, o.scheme, _point_halo,
+                      host, entry);
+  entry =
+      carry_all(_nodes, fields.nodes, o.nodal_scheme, _node_halo, host, entry);
+  if (_masses)
+    carry_masses<G>(fields, entry, host);
+}
+
+/// Values back into their ranges.
+void Remapper::repair(const Fields& fields, const Host& host)
+{
+  double repaired = 0;
+  const auto all = [&](std::span<const Field> list, const ControlVolumes& cv,
+                       const Halo& halo)
+  {
+    for (const Field& field : list)
+      for (int k = 0; not field.least.empty() and k < field.components; ++k)
+      {
+        std::int64_t number = 0;
+        const double left = _repair.run(field, k, cv, halo, host, number);
+        repaired += static_cast<double>(number);
+        _report.unrepaired = std::max(_report.unrepaired, left);
+      }
+  };
+  all(fields.cells, _cells, _cell_halo);
+  if (_fine)
+    all(fields.points, _points->volumes, _point_halo);
+  all(fields.nodes, _nodes, _node_halo);
+  all(fields.per_mass, _nodes, _node_halo);
+  host.sum(std::span(&repaired, 1));
+  _report.repaired = static_cast<std::int64_t>(repaired);
 }
 
 /// Add this call's book to the ledger, summed over ranks.
-void Remapper::settle(std::span<const Field> cells,
-                      std::span<const Field> nodes, const Host& host,
-                      Ledger& ledger)
+void Remapper::settle(const Fields& fields, const Host& host, Ledger& ledger)
 {
   host.sum(std::span(_book[0].data(), _book.size() * num_ways));
   const auto add = [](Exchange& to, const Exchange& from)
@@ -361,32 +405,32 @@ void Remapper::settle(std::span<const Field> cells,
   add(ledger.cell_volume, _book[0]);
   add(ledger.node_volume, _book[1]);
   std::size_t entry = 2;
-  const auto all = [&](std::span<const Field> fields, std::vector<Exchange>& to)
+  const auto all = [&](std::span<const Field> list, std::vector<Exchange>& to)
   {
     std::size_t n = 0;
-    for (const Field& field : fields)
-      n += field.components;
+    for (const Field& field : list)
+      n += static_cast<std::size_t>(field.components);
     to.resize(n);
     for (Exchange& e : to)
       add(e, _book[entry++]);
   };
-  all(cells, ledger.cells);
-  all(nodes, ledger.nodes);
+  all(fields.cells, ledger.cells);
+  all(fields.points, ledger.points);
+  all(fields.nodes, ledger.nodes);
+  all(fields.per_mass, ledger.per_mass);
 }
 
 template <Geometry G>
-Outcome Remapper::run(std::span<const Field> cells,
-                      std::span<const Field> nodes, const Host& host,
-                      Ledger& ledger)
+Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
 {
   exchange_touched(host);
   std::copy(_x_old.begin(), _x_old.end(), _x.begin());
   std::copy(_x_old.begin(), _x_old.end(), _y.begin());
   measure<G>(true, host);
-  if (inverted(_cells.volume, host))
+  if (inverted(false, host))
     return Outcome::inverted_start;
   measure_next<G>(_x_new);
-  if (inverted(_cells.next, host))
+  if (inverted(true, host))
     return Outcome::inverted_target;
 
   double at = 0;
@@ -401,28 +445,42 @@ Outcome Remapper::run(std::span<const Field> cells,
     if (_report.cycles > 0 or left > 1)
     {
       measure_next<G>(_y);
-      if (inverted(_cells.next, host))
+      if (inverted(true, host))
         return Outcome::inverted_path;
     }
     at = left == 1 ? 1 : at + (1 - at) / left;
     --left;
-    carry(cells, nodes, host);
+    carry<G>(fields, host);
     ++_report.cycles;
     for (std::int32_t i : _moved_nodes)
     {
       _x[2 * i] = _y[2 * i];
       _x[2 * i + 1] = _y[2 * i + 1];
     }
+    if (_fine)
+      place_points(_cells.touched, _x, _points->x);
   }
-  settle(cells, nodes, host, ledger);
+  repair(fields, host);
+  settle(fields, host, ledger);
   return Outcome::ok;
 }
 
+/// What the halos of this call do.
+void Remapper::prepare_halos(const Host& host)
+{
+  _cell_halo = [&host](std::span<double> v, int block)
+  { host.update_cells(v, block); };
+  _node_halo = [&host](std::span<double> v, int block)
+  { host.update_nodes(v, block); };
+  if (_fine)
+    _point_halo = [&host, points = _options.points->points()](
+                      std::span<double> v, int block)
+    { host.update_cells(v, points * block); };
+}
+
 Outcome Remapper::remap(std::span<const double> x_old,
-                        std::span<const double> x_new,
-                        std::span<const Field> cells,
-                        std::span<const Field> nodes, const Host& host,
-                        Ledger& ledger)
+                        std::span<const double> x_new, const Fields& fields,
+                        const Host& host, Ledger& ledger)
 {
   const auto finite = [](std::span<const double> x)
   {
@@ -430,9 +488,13 @@ Outcome Remapper::remap(std::span<const double> x_old,
                        [](double v) { return std::isfinite(v); });
   };
   // All ranks learn of the worst trouble of any, and that some node moved.
-  const bool fit = sizes_fit(x_old, x_new, cells, nodes);
+  const bool fit = sizes_fit(x_old, x_new, fields);
   const bool good = fit and finite(x_old) and finite(x_new);
-  _dual = not nodes.empty();
+  _masses = not fields.per_mass.empty();
+  _dual = not fields.nodes.empty() or _masses;
+  _fine = not fields.points.empty();
+  _x_old = x_old;
+  _x_new = x_new;
   if (good)
     find_touched(x_old, x_new);
   double state[3] = {fit ? 0.0 : 1.0, good ? 0.0 : 1.0,
@@ -443,18 +505,18 @@ Outcome Remapper::remap(std::span<const double> x_old,
   if (state[1] > 0)
     return Outcome::not_finite;
   std::size_t entries = 2;
-  for (const auto& fields : {cells, nodes})
-    for (const Field& field : fields)
-      entries += field.components;
+  for (const auto& list :
+       {fields.cells, fields.points, fields.nodes, fields.per_mass})
+    for (const Field& field : list)
+      entries += static_cast<std::size_t>(field.components);
   _book.assign(entries, {});
   if (not(state[2] > 0))
   {
-    settle(cells, nodes, {}, ledger);
+    settle(fields, {}, ledger);
     return Outcome::ok;
   }
-  _x_old = x_old;
-  _x_new = x_new;
+  prepare_halos(host);
   return _options.geometry == Geometry::plane
-             ? run<Geometry::plane>(cells, nodes, host, ledger)
-             : run<Geometry::axisymmetric>(cells, nodes, host, ledger);
+             ? run<Geometry::plane>(fields, host, ledger)
+             : run<Geometry::axisymmetric>(fields, host, ledger);
 }

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // METHOD 4.2 and 4.3: carry fields from a mesh to the same mesh with other node
-// positions. In: old and new coordinates, means over cells and over dual
-// volumes. Out: new means, and a ledger of what passed the boundary. Conserved:
-// the integral of every component.
+// positions. In: old and new coordinates, means over cells, over the triangles
+// of their points, over dual volumes, and velocities. Out: new means, and a
+// ledger of what passed the boundary. Conserved: the integral of every
+// component, momentum for a velocity.
 #pragma once
 
 #include "remap/geometry/volumes.h"
 #include "remap/host.h"
 #include "remap/mesh.h"
 #include "remap/outcome.h"
-#include "remap/transport/control_volumes.h"
-#include "remap/transport/field.h"
-#include "remap/transport/library.h"
+#include "remap/points.h"
+#include "remap/transport/carrier.h"
+#include "remap/transport/cell_volumes.h"
+#include "remap/transport/nodal_volumes.h"
+#include "remap/transport/repair.h"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +28,7 @@ namespace remap
 struct Options
 {
   Geometry geometry = Geometry::plane;
-  Scheme scheme = scheme::LimitedLinear{};       ///< of cell fields
+  Scheme scheme = scheme::LimitedLinear{};       ///< of cells and points
   Scheme nodal_scheme = scheme::LimitedLinear{}; ///< of nodal fields
   /// Largest part of itself that a volume may lose in one sub-cycle. Bounds
   /// hold below 1. Doubled: half the sub-cycles, less smearing, less stability.
@@ -34,8 +38,12 @@ struct Options
   int max_cycles = 200;
   /// What each boundary marker does; a facet without a marker is closed.
   std::vector<Boundary> boundaries = {};
+  /// Triangles of the cells' points, if there are any: must outlive this.
+  const PointMesh* points = nullptr;
   int cell_components = 1;  ///< of the widest cell field that will come; or 0
-  int nodal_components = 0; ///< of the widest nodal field; 0: no dual mesh
+  int point_components = 0; ///< of the widest point field
+  int nodal_components = 0; ///< of the widest nodal field, or field per mass
+  bool per_mass = false;    ///< will there be fields per mass?
 
   /// Every problem, in words; empty is good.
   [[nodiscard]] std::vector<std::string> complaints() const;
@@ -49,6 +57,15 @@ struct Report
   std::int32_t moved_nodes = 0;   ///< of this rank, with ghosts
   std::int32_t touched_cells = 0; ///< of this rank, with ghosts
   std::int64_t worst_cell = -1;   ///< global number, where a cell inverts
+  /// Least part of a velocity's limited correction that its kinetic energy let
+  /// through.
+  double kinetic_part = 1;
+  /// Largest part of its mass that a node lost in a sub-cycle. Velocities keep
+  /// their bounds below 1.
+  double mass_loss = 0;
+  std::int64_t repaired = 0; ///< values of all ranks that were put in range
+  /// Largest amount of a component that found no room in its range.
+  double unrepaired = 0;
 };
 
 /// Remap with all the room it needs; set up once for a mesh.
@@ -66,63 +83,90 @@ public:
   /// stand part of the way, and the host goes back to its copy.
   ///
   /// @param[in]     x_old, x_new shape (num_nodes, 2), ghosts up to date [m]
-  /// @param[in,out] cells        fields over cells
-  /// @param[in,out] nodes        fields over dual volumes
+  /// @param[in,out] fields       what travels
   /// @param[in]     host         communication
   /// @param[in,out] ledger       grows by what passed the boundary; sized here
-  /// at
-  ///                             its first use
+  ///                             at its first use
+  [[nodiscard]] Outcome remap(std::span<const double> x_old,
+                              std::span<const double> x_new,
+                              const Fields& fields, const Host& host,
+                              Ledger& ledger);
+
+  /// Fields over cells and over dual volumes alone.
   [[nodiscard]] Outcome remap(std::span<const double> x_old,
                               std::span<const double> x_new,
                               std::span<const Field> cells,
                               std::span<const Field> nodes, const Host& host,
-                              Ledger& ledger);
+                              Ledger& ledger)
+  {
+    return remap(x_old, x_new, {.cells = cells, .nodes = nodes}, host, ledger);
+  }
 
   /// What the last call did.
   [[nodiscard]] const Report& report() const { return _report; }
   [[nodiscard]] const Options& options() const { return _options; }
 
 private:
+  /// The triangles of the points, where they are asked for.
+  struct Points
+  {
+    CellVolumes volumes;
+    std::vector<double> x, y;        // of the triangles' nodes
+    std::vector<std::uint8_t> moved; // of them
+  };
+
   template <Geometry G>
-  Outcome run(std::span<const Field> cells, std::span<const Field> nodes,
-              const Host& host, Ledger& ledger);
+  Outcome run(const Fields& fields, const Host& host, Ledger& ledger);
   [[nodiscard]] bool sizes_fit(std::span<const double> x_old,
                                std::span<const double> x_new,
-                               std::span<const Field> cells,
-                               std::span<const Field> nodes) const;
+                               const Fields& fields) const;
   [[nodiscard]] bool fits(const Field& field, std::int32_t num,
                           int components) const;
   void find_touched(std::span<const double> x_old,
                     std::span<const double> x_new);
   void exchange_touched(const Host& host);
+  void touch_points();
+  void place_points(std::span<const std::int32_t> cells,
+                    std::span<const double> from, std::vector<double>& to);
+  void prepare_halos(const Host& host);
   template <Geometry G>
   void measure(bool with_ring, const Host& host);
   template <Geometry G>
   void measure_next(std::span<const double> y);
-  [[nodiscard]] bool inverted(std::span<const double> volumes,
-                              const Host& host);
+  [[nodiscard]] bool inverted(bool at_end, const Host& host);
   template <Geometry G>
   void sweep();
   template <Geometry G>
-  void sweep_dual(std::int32_t c);
-  template <Geometry G>
   Outcome choose_cycle(double at, int& left, const Host& host);
   void place(double at);
-  void carry(std::span<const Field> cells, std::span<const Field> nodes,
-             const Host& host);
-  void settle(std::span<const Field> cells, std::span<const Field> nodes,
-              const Host& host, Ledger& ledger);
+  template <Geometry G>
+  void carry(const Fields& fields, const Host& host);
+  template <Geometry G>
+  void carry_masses(const Fields& fields, std::size_t entry, const Host& host);
+  std::size_t carry_all(ControlVolumes& volumes, std::span<const Field> fields,
+                        const Scheme& scheme, const Halo& halo,
+                        const Host& host, std::size_t entry,
+                        int with_amounts = -1);
+  void repair(const Fields& fields, const Host& host);
+  void settle(const Fields& fields, const Host& host, Ledger& ledger);
 
   const Mesh* _mesh;
   Options _options;
   Report _report;
-  ControlVolumes _cells, _nodes;
-  bool _dual = false; // are there nodal fields in this call?
+  CellVolumes _cells;
+  NodalVolumes _nodes;
+  std::unique_ptr<Points> _points;
+  bool _dual = false;   // are there nodal fields in this call?
+  bool _masses = false; // are there fields per mass?
+  bool _fine = false;   // are there fields at points?
+  Amounts _amounts;     // of the density
   std::span<const double> _x_old, _x_new;
   std::vector<double> _x, _y;             // before and after a sub-cycle
   std::vector<std::uint8_t> _moved;       // per node
   std::vector<std::int32_t> _moved_nodes; // list of them
   std::vector<double> _flags;             // per node, for the halo
-  std::vector<Exchange> _book;            // this call: volumes, cells, nodes
+  std::vector<Exchange> _book;            // this call: volumes, all fields
+  Halo _cell_halo, _point_halo, _node_halo;
+  Repair _repair;
 };
 } // namespace remap

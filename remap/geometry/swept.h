@@ -28,78 +28,130 @@ constexpr Moments swept(const Motion& m)
 }
 
 /// The parts of a swept region: one, or two of opposite signs if the region's
-/// outline crosses itself (a facet that turns about an inner point).
+/// outline crosses itself (a facet that turns about an inner point, or is
+/// turned over), so that each part lies on one side and has one donor. A part
+/// that is not there has no volume. The parts add up to `swept` to round-off.
 struct SweptParts
 {
-  Moments part[2];
-  int count = 1;
+  double v[2]; ///< volumes, positive when the left volume loses
+  Point at[2]; ///< centroids, held in the box around the motion: for slivers of
+               ///< round-off size the quotient of moment and volume means
+               ///< nothing
 };
 
-/// Where the outline p0 q0 q1 p1 crosses itself.
-struct Crossing
+namespace detail
 {
-  enum
-  {
-    none,
-    facets, ///< the facet before and the facet after cross: it turns
-    paths,  ///< the ways of its ends cross: it is turned over
-  } kind = none;
-  Point at;
-};
-
-inline Crossing crossing(const Motion& m)
-{
-  const Point d = m.q0 - m.p0; // facet before
-  const Point e = m.q1 - m.p1; // and after
-  const Point a = m.p1 - m.p0; // way of p
-  const Point b = m.q1 - m.q0; // and of q
-  // Four products tell on which side of each line each other end lies.
-  const double da = cross(d, a), db = cross(d, b);
-  const double ea = cross(e, a), eb = cross(e, b);
-  if (da * db < 0 and ea * eb < 0)
-    return {Crossing::facets, m.p0 + (ea / (ea - eb)) * d};
-  if (da * ea < 0 and db * eb < 0)
-    return {Crossing::paths, m.p0 + (db / (db - eb)) * a};
-  return {};
-}
-
-/// Swept region, cut where its outline crosses itself, so that each part lies
-/// on one side and has one donor. The parts add up to `swept` to the last bit
-/// but one: the second is the whole less the first.
+/// Volume and first moments, from (0, 0), of the triangle 0, a, b with twice
+/// the area `area2`; r is the first coordinate of the origin. In plain numbers:
+/// only of these compilers make vector instructions.
 template <Geometry G>
-inline SweptParts swept_parts(const Motion& m)
+[[gnu::always_inline]] constexpr void
+triangle_at(double area2, double ax, double ay, double bx, double by,
+            [[maybe_unused]] double r, double& v, double& x, double& y)
 {
-  SweptParts out;
-  const Moments all = swept<G>(m);
-  out.part[0] = all;
-  const Crossing x = crossing(m);
-  if (x.kind == Crossing::none)
-    return out;
-  const Moments first = x.kind == Crossing::facets
-                            ? triangle<G>(m.p0, x.at, m.p1)
-                            : triangle<G>(m.p0, m.q0, x.at);
-  const Moments second = all - first;
-  if (not(first.v * second.v < 0))
-    return out;
-  out.part[0] = first;
-  out.part[1] = second;
-  out.count = 2;
-  return out;
+  const double sx = ax + bx, sy = ay + by;
+  v = 0.5 * area2;
+  x = area2 * (1.0 / 6) * sx;
+  y = area2 * (1.0 / 6) * sy;
+  if constexpr (G == Geometry::axisymmetric)
+  {
+    const double t = area2 * (1.0 / 24);
+    const double flat = v, fx = x, fy = y;
+    v = r * flat + fx;
+    x = r * fx + t * (sx * sx + ax * ax + bx * bx);
+    y = r * fy + t * (sx * sy + ax * ay + bx * by);
+  }
 }
 
-/// Centroid of a part, held in the box around the motion: for slivers of
-/// round-off size the quotient of moment and volume means nothing.
-inline Point centroid_in(const Moments& part, const Motion& m)
+// By value: std::min's references keep loops from becoming vector instructions.
+[[gnu::always_inline]] constexpr double lesser(double a, double b)
 {
-  // Pairwise, so that no branch is taken.
-  const auto hold = [](double v, double a, double b, double c, double d)
-  {
-    const double lo = std::min(std::min(a, b), std::min(c, d));
-    const double hi = std::max(std::max(a, b), std::max(c, d));
-    return std::min(std::max(v, lo), hi);
-  };
-  const Point c = part.centroid();
-  return {hold(c.x, m.p0.x, m.q0.x, m.p1.x, m.q1.x),
-          hold(c.y, m.p0.y, m.q0.y, m.p1.y, m.q1.y)};
+  return a < b ? a : b;
 }
+[[gnu::always_inline]] constexpr double greater(double a, double b)
+{
+  return a > b ? a : b;
+}
+
+/// Between the least and the largest of 0, a, b, c.
+[[gnu::always_inline]] constexpr double held(double value, double a, double b,
+                                             double c)
+{
+  const double lo = lesser(lesser(0.0, a), lesser(b, c));
+  const double hi = greater(greater(0.0, a), greater(b, c));
+  return lesser(greater(value, lo), hi);
+}
+
+/// `swept_parts` in plain numbers: ends p0, q0 before and p1, q1 after in, two
+/// volumes and centroids out. Without branches, because the motion cannot be
+/// foreseen, and so that a loop over facets becomes vector instructions.
+template <Geometry G>
+[[gnu::always_inline]] constexpr void
+swept_parts(double p0x, double p0y, double q0x, double q0y, double p1x,
+            double p1y, double q1x, double q1y, double (&v)[2], double (&x)[2],
+            double (&y)[2])
+{
+  // From p0: facet before d, way of p a, diagonal c; facet after e, way of q b.
+  const double dx = q0x - p0x, dy = q0y - p0y;
+  const double ax = p1x - p0x, ay = p1y - p0y;
+  const double cx = q1x - p0x, cy = q1y - p0y;
+  const double ex = cx - ax, ey = cy - ay;
+  const double bx = cx - dx, by = cy - dy;
+  // Four products tell on which side of each line each other end lies.
+  const double da = dx * ay - dy * ax, db = dx * by - dy * bx;
+  const double ea = ex * ay - ey * ax, eb = ex * by - ey * bx;
+  const bool facets = (da * db < 0) & (ea * eb < 0); // they cross: it turns
+  const bool paths = (da * ea < 0) & (db * eb < 0);  // it is turned over
+  const double above = facets ? ea : db;
+  const double s = above / (facets | paths ? above - eb : 1.0);
+  double v0, x0, y0, v1, x1, y1, v2, x2, y2;
+  triangle_at<G>(db, dx, dy, cx, cy, p0x, v0, x0, y0);
+  triangle_at<G>(ea, cx, cy, ax, ay, p0x, v1, x1, y1);
+  v0 += v1, x0 += x1, y0 += y1;
+  // The triangle from p0 to where the facets, or the paths, cross.
+  const double sd = facets ? s : 1.0, sa = facets ? 1.0 : s;
+  triangle_at<G>(s * da, sd * dx, sd * dy, sa * ax, sa * ay, p0x, v2, x2, y2);
+  const bool two = (facets | paths) & (v2 * (v0 - v2) < 0);
+  v[0] = two ? v2 : v0;
+  v[1] = two ? v0 - v2 : 0.0;
+  const double over0 = 1 / (v[0] != 0 ? v[0] : 1.0);
+  const double over1 = 1 / (v[1] != 0 ? v[1] : 1.0);
+  x[0] = p0x + held((two ? x2 : x0) * over0, dx, ax, cx);
+  y[0] = p0y + held((two ? y2 : y0) * over0, dy, ay, cy);
+  x[1] = p0x + held((x0 - x2) * over1, dx, ax, cx);
+  y[1] = p0y + held((y0 - y2) * over1, dy, ay, cy);
+}
+} // namespace detail
+
+/// See SweptParts.
+template <Geometry G>
+constexpr SweptParts swept_parts(const Motion& m)
+{
+  double v[2], x[2], y[2];
+  detail::swept_parts<G>(m.p0.x, m.p0.y, m.q0.x, m.q0.y, m.p1.x, m.p1.y, m.q1.x,
+                         m.q1.y, v, x, y);
+  return {{v[0], v[1]}, {{x[0], y[0]}, {x[1], y[1]}}};
+}
+
+/// Motions of many facets, taken together.
+struct SweptBatch
+{
+  static constexpr int room = 64;
+  int count = 0;
+  double p0x[room], p0y[room], q0x[room], q0y[room];
+  double p1x[room], p1y[room], q1x[room], q1y[room];
+  double v[2][room], x[2][room], y[2][room]; ///< parts, see SweptParts
+
+  void add(const Motion& m)
+  {
+    p0x[count] = m.p0.x, p0y[count] = m.p0.y;
+    q0x[count] = m.q0.x, q0y[count] = m.q0.y;
+    p1x[count] = m.p1.x, p1y[count] = m.p1.y;
+    q1x[count] = m.q1.x, q1y[count] = m.q1.y;
+    ++count;
+  }
+
+  template <Geometry G>
+  void sweep();
+};
 } // namespace remap

@@ -18,12 +18,41 @@ struct Field
   /// and up to date on entry; the mean over each volume.
   std::span<double> values;
   int components = 1;
-  /// So many consecutive components share one limiting factor (the smallest):
-  /// 1 limits each by itself, `components` scales a tensor as one.
+  /// So many consecutive components are one vector or tensor, at most
+  /// `largest_group`. 1: each is limited by itself, between the least and the
+  /// largest of its neighbours. More: together, in the convex hull of their
+  /// neighbours; no frame is preferred, and what lies in a convex set (a yield
+  /// surface) stays there.
   int group = 1;
+  /// Weights of a group's components in the square of its length, shape
+  /// (group): 1, 1, 1, 2 for a tensor xx, yy, zz, xy. Empty: all 1.
+  std::span<const double> weights = {};
   /// What flows in at open boundaries, shape (markers, components); may be
   /// empty if no boundary is open.
   std::span<const double> inflow = {};
+  /// Range that no value may leave, shape (components), or empty: none. A
+  /// scheme that does not keep it by itself is repaired at the end of a remap.
+  std::span<const double> least = {};
+  std::span<const double> most = {};
+};
+
+/// Widest vector or tensor that is limited as one.
+inline constexpr int largest_group = 6;
+
+/// All that travels in one remap, over regions that are computed once.
+struct Fields
+{
+  std::span<const Field> cells = {};
+  /// Over the triangles that the points of a cell stand for, shape
+  /// (num_cells · points, components); see points.h.
+  std::span<const Field> points = {};
+  /// Over the dual volumes of nodes.
+  std::span<const Field> nodes = {};
+  /// At nodes too, but per mass (velocity): what is conserved is
+  /// Σ mass · value, with the masses of the corners around a node.
+  std::span<const Field> per_mass = {};
+  /// Which of `cells` is the density that makes these masses.
+  int density = -1;
 };
 
 /// What a boundary facet with some marker does.
@@ -45,6 +74,29 @@ enum class Way
 };
 inline constexpr std::size_t num_ways = 5;
 
+/// Which way a piece over the boundary goes in the book.
+inline Way way(Boundary kind, bool inwards)
+{
+  switch (kind)
+  {
+  case Boundary::free_surface:
+    return inwards ? Way::gained : Way::lost;
+  case Boundary::open:
+    return inwards ? Way::inflow : Way::outflow;
+  case Boundary::closed:
+    break;
+  }
+  return Way::closed;
+}
+
+/// What a boundary with some marker does; without a marker it is closed.
+inline Boundary kind_of(std::span<const Boundary> kinds, std::int32_t marker)
+{
+  return marker >= 0 and marker < static_cast<std::int32_t>(kinds.size())
+             ? kinds[marker]
+             : Boundary::closed;
+}
+
 /// Integral of one component (or the volume itself) that passed, by way.
 using Exchange = std::array<double, num_ways>;
 
@@ -61,9 +113,11 @@ inline double net(const Exchange& e)
 /// After each remap: integral now = integral before + net, for every component.
 struct Ledger
 {
-  Exchange cell_volume{};      ///< of the cells [m³/m or m³/rad]
-  Exchange node_volume{};      ///< of the dual volumes
-  std::vector<Exchange> cells; ///< components of all cell fields, in order
-  std::vector<Exchange> nodes; ///< components of all nodal fields, in order
+  Exchange cell_volume{};         ///< of the cells [m³/m or m³/rad]
+  Exchange node_volume{};         ///< of the dual volumes
+  std::vector<Exchange> cells;    ///< components of all cell fields, in order
+  std::vector<Exchange> points;   ///< of all point fields
+  std::vector<Exchange> nodes;    ///< of all nodal fields
+  std::vector<Exchange> per_mass; ///< of all fields per mass: Σ mass · value
 };
 } // namespace remap

@@ -13,194 +13,123 @@
 #pragma once
 
 #include "remap/host.h"
-#include "remap/transport/control_volumes.h"
 #include "remap/transport/field.h"
-
-#include <algorithm>
+#include "remap/transport/gradient.h"
 
 namespace remap::kernel
 {
-/// Inverse of Σ d dᵀ over the neighbours of one volume; d joins centroids.
-/// Neighbours on a line give the gradient along it, none gives none.
-inline void fit(ControlVolumes& cv, std::int32_t i)
+/// Where a block of B components of a field stands, and what the outside does.
+template <int B>
+struct Block
 {
-  double xx = 0, xy = 0, yy = 0;
-  const Point c = cv.centroid[i];
-  for (std::int32_t j : (*cv.neighbours)[i])
-  {
-    const Point d = cv.centroid[j] - c;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  double* out = &cv.fit[std::size_t(3) * i];
-  const double trace = xx + yy;
-  const double det = xx * yy - xy * xy;
-  // Aspect ratios to 1e6 stay regular; beyond, det is round-off of trace².
-  const bool regular = det > 1e-13 * trace * trace;
-  const double s = regular ? 1 / det : (trace > 0 ? 1 / (trace * trace) : 0);
-  out[0] = s * (regular ? yy : xx);
-  out[1] = s * (regular ? -xy : xy);
-  out[2] = s * (regular ? xx : yy);
-}
+  Values<B> u;
+  const double* least = nullptr;   ///< range, or null
+  const double* most = nullptr;    ///< as least
+  const double* inflow = nullptr;  ///< row of the first marker, or null
+  std::array<double, B> weights{}; ///< of a vector's components in its length
+  std::span<const Boundary> kinds;
+  std::span<Exchange> book; ///< one entry a component
 
-/// Smallest factor over all places where a value of volume i will be taken.
-template <class Limiter>
-double factor(const ControlVolumes& cv, std::int32_t i, Point g, double lo,
-              double hi)
-{
-  const Point c = cv.centroid[i];
-  double phi = 1;
-  Point away{};
-  for (std::int32_t k = cv.first[i]; k >= 0; k = cv.pieces[k].next)
+  /// What comes in at an open boundary.
+  [[nodiscard]] const double* given(std::int32_t marker) const
   {
-    const Piece& p = cv.pieces[k];
-    const Point d = p.at - c;
-    phi = std::min(phi, Limiter::factor(dot(g, d), lo, hi));
-    away = away + p.volume * d;
+    return inflow + u.stride * static_cast<std::size_t>(marker);
   }
-  const double rest = cv.volume[i] - cv.leaving[i];
-  const Point remains = (-1 / rest) * away;
-  return std::min(phi, Limiter::factor(dot(g, remains), lo, hi));
-}
+};
 
-/// Limited gradient of one volume. NC components, or `nc` if NC is 0.
-template <class Scheme, int NC>
-void gradient(ControlVolumes& cv, std::int32_t i, const double* u, int nc,
-              int group)
+/// Carry what passes the boundary, at the donor's linear function if `linear`.
+template <bool linear, int B>
+void carry_outer(ControlVolumes& cv, const Block<B>& block)
 {
-  const int n = NC > 0 ? NC : nc;
-  double* g = &cv.gradient[std::size_t(2) * n * i];
-  const double* own = &u[std::size_t(n) * i];
-  const auto neighbours = (*cv.neighbours)[i];
-  const double* a = &cv.fit[std::size_t(3) * i];
-  const Point c = cv.centroid[i];
-  for (int first = 0; first < n; first += group)
+  for (std::size_t p = 0; p < cv.outer.count; ++p)
   {
-    double phi = 1;
-    for (int k = first; k < first + group; ++k)
+    const std::int32_t from = cv.outer.from[p], to = cv.outer.to[p];
+    const bool in = from < 0;
+    const std::int32_t own = in ? to : from;
+    const Boundary kind = kind_of(block.kinds, cv.marker[p]);
+    const double* value = in and kind == Boundary::open
+                              ? block.given(cv.marker[p])
+                              : block.u[own];
+    const double v = in ? cv.outer.volume[p] : -cv.outer.volume[p];
+    const Point d = cv.outer.at[p] - cv.centroid[own];
+    for (int k = 0; k < B; ++k)
     {
-      double bx = 0, by = 0, lo = 0, hi = 0;
-      for (std::int32_t j : neighbours)
-      {
-        const Point d = cv.centroid[j] - c;
-        const double du = u[std::size_t(n) * j + k] - own[k];
-        bx += d.x * du;
-        by += d.y * du;
-        lo = std::min(lo, du);
-        hi = std::max(hi, du);
-      }
-      const Point slope = {a[0] * bx + a[1] * by, a[1] * bx + a[2] * by};
-      g[2 * k] = slope.x;
-      g[2 * k + 1] = slope.y;
-      if constexpr (Scheme::bounded)
-        phi = std::min(phi,
-                       factor<typename Scheme::limiter>(cv, i, slope, lo, hi));
+      double amount = v * value[k];
+      if constexpr (linear)
+        if (not in)
+          amount += v * predict<B>(cv, from, k, d);
+      cv.content[std::size_t(B) * own + k] += amount;
+      if (own < cv.owned)
+        block.book[k][std::size_t(way(kind, in))] += amount;
     }
-    if constexpr (Scheme::bounded)
-      for (int k = 2 * first; k < 2 * (first + group); ++k)
-        g[k] *= phi;
   }
 }
 
-/// Which way a piece over the boundary goes in the book.
-inline Way way(Boundary kind, bool inwards)
+/// Contents after the sub-cycle: what was there and what the pieces carry.
+template <bool linear, int B>
+void carry(ControlVolumes& cv, const Block<B>& block)
 {
-  switch (kind)
+  for (std::int32_t i : cv.touched)
+    for (int k = 0; k < B; ++k)
+      cv.content[std::size_t(B) * i + k] = cv.volume[i] * block.u[i][k];
+  const Pieces& pieces = cv.inner;
+  for (std::size_t p = 0; p < pieces.count; ++p)
   {
-  case Boundary::free_surface:
-    return inwards ? Way::gained : Way::lost;
-  case Boundary::open:
-    return inwards ? Way::inflow : Way::outflow;
-  case Boundary::closed:
-    break;
-  }
-  return Way::closed;
-}
-
-/// What a boundary with some marker does; without a marker it is closed.
-inline Boundary kind_of(std::span<const Boundary> kinds, std::int32_t marker)
-{
-  return marker >= 0 and marker < static_cast<std::int32_t>(kinds.size())
-             ? kinds[marker]
-             : Boundary::closed;
-}
-
-/// Carry one piece: content of its donor falls, content of its receiver rises.
-template <class Scheme, int NC>
-void carry(ControlVolumes& cv, const Piece& p, const Field& field,
-           std::span<const Boundary> kinds, std::span<Exchange> book)
-{
-  const int n = NC > 0 ? NC : field.components;
-  const double* u = field.values.data();
-  if (p.from >= 0)
-  {
-    const double* own = u + std::size_t(n) * p.from;
-    double* out = &cv.content[std::size_t(n) * p.from];
-    double* in = p.to >= 0 ? &cv.content[std::size_t(n) * p.to] : nullptr;
-    const Point d = p.at - cv.centroid[p.from];
-    for (int k = 0; k < n; ++k)
+    const std::int32_t from = pieces.from[p];
+    const double v = pieces.volume[p];
+    const double* own = block.u[from];
+    double* out = &cv.content[std::size_t(B) * from];
+    double* in = &cv.content[std::size_t(B) * pieces.to[p]];
+    for (int k = 0; k < B; ++k)
     {
       double value = own[k];
-      if constexpr (Scheme::linear)
-      {
-        const double* g = &cv.gradient[2 * (std::size_t(n) * p.from + k)];
-        value += g[0] * d.x + g[1] * d.y;
-      }
-      const double amount = p.volume * value;
-      out[k] -= amount;
-      if (in)
-        in[k] += amount;
-      else if (p.from < cv.owned)
-        book[k][std::size_t(way(kind_of(kinds, p.marker), false))] -= amount;
+      if constexpr (linear)
+        value += predict<B>(cv, from, k, pieces.at[p] - cv.centroid[from]);
+      out[k] -= v * value;
+      in[k] += v * value;
     }
-    return;
   }
-  const Boundary kind = kind_of(kinds, p.marker);
-  const double* given = kind == Boundary::open
-                            ? &field.inflow[std::size_t(n) * p.marker]
-                            : u + std::size_t(n) * p.to;
-  double* in = &cv.content[std::size_t(n) * p.to];
-  for (int k = 0; k < n; ++k)
-  {
-    const double amount = p.volume * given[k];
-    in[k] += amount;
-    if (p.to < cv.owned)
-      book[k][std::size_t(way(kind, true))] += amount;
-  }
+  carry_outer<linear>(cv, block);
 }
 
-/// One field over one sub-cycle, but for the halo of its new values.
-///
-/// @param[in,out] cv     volumes, pieces, and room for gradient and content
-/// @param[in,out] field  means
-/// @param[in]     kinds  what each boundary marker does
-/// @param[in,out] book   one entry a component
-/// @param[in]     halo   fills ghosts of a gradient: halo(values, block)
-template <class Scheme, int NC, class Halo>
-void transport(ControlVolumes& cv, const Field& field,
-               std::span<const Boundary> kinds, std::span<Exchange> book,
-               Halo&& halo)
+/// Contents to means, of our volumes.
+template <int B>
+void put(const ControlVolumes& cv, Values<B> u)
 {
-  const int n = NC > 0 ? NC : field.components;
-  double* u = field.values.data();
-  if constexpr (Scheme::linear)
-  {
-    for (std::int32_t i : cv.touched)
-      if (i < cv.owned and cv.first[i] >= 0)
-        gradient<Scheme, NC>(cv, i, u, n, field.group);
-    halo(std::span(cv.gradient.data(), std::size_t(2) * n * cv.num), 2 * n);
-  }
-  for (std::int32_t i : cv.touched)
-    for (int k = 0; k < n; ++k)
-      cv.content[std::size_t(n) * i + k] =
-          cv.volume[i] * u[std::size_t(n) * i + k];
-  for (const Piece& p : cv.pieces)
-    carry<Scheme, NC>(cv, p, field, kinds, book);
   for (std::int32_t i : cv.touched)
     if (i < cv.owned)
-      for (int k = 0; k < n; ++k)
-        u[std::size_t(n) * i + k] =
-            cv.content[std::size_t(n) * i + k] / cv.next[i];
+    {
+      const double inverse = 1 / cv.next[i];
+      for (int k = 0; k < B; ++k)
+        u[i][k] = cv.content[std::size_t(B) * i + k] * inverse;
+    }
+}
+
+/// Matrices of the gradients of this sub-cycle.
+inline void fit_all(ControlVolumes& cv, bool with_ring)
+{
+  for (std::int32_t i : cv.touched)
+    if (i < cv.owned and (with_ring or cv.leaving[i] > 0))
+      fit(cv, i);
+  if (with_ring)
+    for (std::int32_t i : cv.ring)
+      if (i < cv.owned)
+        fit(cv, i);
+}
+
+/// Gradients of B components, each limited by itself, ghosts included.
+///
+/// @param[in,out] cv    volumes with pieces and, if linear, `fit_all` done
+/// @param[in]     block where means stand
+/// @param[in]     halo  fills ghosts: halo(values, block)
+template <class Scheme, int B, class Halo>
+void prepare(ControlVolumes& cv, const Block<B>& block, Halo&& halo)
+{
+  if constexpr (Scheme::linear)
+  {
+    limited_slopes<typename Scheme::limiter>(cv, block.u, block.least,
+                                             block.most, halo);
+    halo(std::span(cv.gradient.data(), std::size_t(2) * B * cv.num), 2 * B);
+  }
 }
 } // namespace remap::kernel
