@@ -261,17 +261,33 @@ inline void load(const Triangle& t, Point origin, double* x, double* y)
 }
 
 /// Overlap of two counter-clockwise triangles, moments about q's first vertex.
-/// All three cuts are made, whether needed or not: which are needed cannot be
-/// guessed, and a wrong guess costs more than a cut.
+///
+/// @param[in] cuts half-planes of q, a bit each, that p does not lie in wholly.
+/// All of them without knowing: to find out by a branch would cost more than
+/// the cut.
 template <Geometry G>
-inline Moments overlap_from(const Triangle& p, const Triangle& q)
+inline Moments overlap_from(const Triangle& p, const Triangle& q,
+                            unsigned cuts = 7)
 {
+  constexpr std::uint8_t first[8] = {0, 0, 1, 0, 2, 0, 1, 0};
+  constexpr std::uint8_t second[8] = {0, 0, 0, 1, 0, 2, 2, 1};
   const Point o = q[0], u = q[1] - o, v = q[2] - o;
+  const HalfPlane planes[3] = {
+      HalfPlane::left_of({}, u), HalfPlane::left_of(u, v), {{-v.y, v.x}, {}}};
+  const int n = std::popcount(cuts);
   double x0[5], y0[5], x1[6], y1[6], x2[7], y2[7], x3[6], y3[6];
   load(p, o, x0, y0);
-  if (not cut<3>(HalfPlane::left_of({}, u), x0, y0, x1, y1)
-      or not cut<4>({{-v.y, v.x}, {}}, x1, y1, x2, y2)
-      or not cut<5>(HalfPlane::left_of(u, v), x2, y2, x3, y3))
+  if (n == 0)
+    return fan<G>(x0, y0, 3, o.x);
+  if (not cut<3>(planes[first[cuts]], x0, y0, x1, y1))
+    return {};
+  if (n == 1)
+    return fan<G>(x1, y1, 4, o.x);
+  if (not cut<4>(planes[second[cuts]], x1, y1, x2, y2))
+    return {};
+  if (n == 2)
+    return fan<G>(x2, y2, 5, o.x);
+  if (not cut<5>(planes[2], x2, y2, x3, y3))
     return {};
   return fan<G>(x3, y3, 6, o.x);
 }
