@@ -234,8 +234,8 @@ inline Moments fan(const double* x, const double* y, int n, double radius)
     return {};
   // About the first vertex, then about the origin.
   const double area = w / 2;
-  mx /= 6;
-  my /= 6;
+  mx *= 1.0 / 6;
+  my *= 1.0 / 6;
   if constexpr (G == Geometry::plane)
     return {area, mx + area * x[0], my + area * y[0]};
   else
@@ -303,14 +303,8 @@ inline Triangle turned(const Triangle& t)
 template <Geometry G, int N>
 [[nodiscard]] Moments moments(const Polygon<N>& p)
 {
-  // From its own first vertex, so that far from the origin digits are kept.
-  if (p.size < 3)
-    return {};
-  std::array<double, N> x, y;
-  for (int i = 0; i < p.size; ++i)
-    x[i] = p.x[i] - p.x[0], y[i] = p.y[i] - p.y[0];
-  return polygon::shifted(polygon::fan<G>(x.data(), y.data(), p.size, p.x[0]),
-                          p[0]);
+  return p.size < 3 ? Moments{}
+                    : polygon::fan<G>(p.x.data(), p.y.data(), p.size, 0);
 }
 
 /// Both sides of a cut. They share the two new corners to the last bit.
