@@ -18,6 +18,7 @@ enum class Outcome
   inverted_target, ///< a cell would have no positive volume at its new place
   inverted_path,   ///< a cell loses its volume between two valid places
   too_many_cycles, ///< the stated loss needs more sub-cycles than allowed
+  beyond_halo,     ///< overlay: a cell meets cells that this rank does not see
 };
 
 /// The outcome in words.
@@ -39,6 +40,8 @@ constexpr std::string_view describe(Outcome outcome)
     return "a cell loses its volume on the way to its new place";
   case Outcome::too_many_cycles:
     return "the move needs more sub-cycles than allowed";
+  case Outcome::beyond_halo:
+    return "a cell moved to where this rank does not see the mesh";
   }
   return "unknown";
 }

@@ -59,6 +59,14 @@ Mesh PointMesh::make(std::span<const double> x) const
   std::vector<double> nodes(
       std::size_t(2) * (_mesh->num_nodes() + _mesh->num_cells() + facets));
   const auto points = static_cast<std::int64_t>(_layout.size());
+  // Numbers that order the ends of every facet alike on all ranks: vertices,
+  // centroids, middles; no facet joins two middles.
+  std::vector<std::int64_t> node_ids(_mesh->node_ids().begin(),
+                                     _mesh->node_ids().end());
+  for (std::int64_t c : _mesh->cell_ids())
+    node_ids.push_back((std::int64_t(1) << 61) + c);
+  for (std::int32_t f = 0; f < facets; ++f)
+    node_ids.push_back((std::int64_t(1) << 62) + f);
   for (std::int32_t c = 0; c < _mesh->num_cells(); ++c)
   {
     place(c, x, nodes);
@@ -90,7 +98,7 @@ Mesh PointMesh::make(std::span<const double> x) const
                .owned_cells = _layout.size() * _mesh->owned_cells(),
                .owned_nodes = static_cast<std::size_t>(_mesh->owned_nodes()),
                .cell_ids = ids,
-               .node_ids = {},
+               .node_ids = node_ids,
                .marked = marked,
                .markers = markers});
 }

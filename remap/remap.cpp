@@ -76,6 +76,8 @@ bool Remapper::fits(const Field& field, std::int32_t num, int components) const
          and field.group <= largest_group and n % field.group == 0
          and field.values.size() == size * num
          and field.least.size() == field.most.size()
+         and (field.weights.empty()
+              or field.weights.size() == static_cast<std::size_t>(field.group))
          and (field.least.empty() or field.least.size() == size)
          and (not any_open
               or field.inflow.size() == size * _options.boundaries.size());
@@ -285,7 +287,8 @@ Outcome Remapper::choose_cycle(double at, int& left, const Host& host)
 std::size_t Remapper::carry_all(ControlVolumes& volumes,
                                 std::span<const Field> fields,
                                 const Scheme& scheme, const Halo& halo,
-                                std::size_t entry, int with_amounts)
+                                const Host& host, std::size_t entry,
+                                int with_amounts)
 {
   if (not fields.empty())
     fit_gradients(volumes, scheme);
@@ -297,6 +300,7 @@ std::size_t Remapper::carry_all(ControlVolumes& volumes,
                 {.scheme = scheme,
                  .boundaries = _options.boundaries,
                  .halo = halo,
+                 .host = host,
                  .amounts = noted ? &_amounts : nullptr},
                 std::span(_book).subspan(entry, n));
     entry += n;
@@ -312,7 +316,7 @@ void Remapper::carry_masses(const Fields& fields, std::size_t entry,
   _cells.split(_x, _y, _amounts.inner, _amounts.outer, _nodes.passing);
   _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(),
                        fields.cells[fields.density].values, _x, _y, host);
-  _nodes.exchange_masses(_cells.touched, _moved, _x, _y);
+  _nodes.exchange_masses<G>(_cells.touched, _moved, _x, _y);
   _report.mass_loss =
       std::max(_report.mass_loss, host.max(_nodes.largest_loss()));
   fit_gradients(_nodes, _options.nodal_scheme);
@@ -323,7 +327,8 @@ void Remapper::carry_masses(const Fields& fields, std::size_t entry,
                                     {.scheme = _options.nodal_scheme,
                                      .boundaries = _options.boundaries,
                                      .halo = _node_halo,
-                                     .kinetic = &_sum},
+                                     .host = host,
+                                     .kinetic = true},
                                     std::span(_book).subspan(entry, n));
     _report.kinetic_part = std::min(_report.kinetic_part, part);
     entry += n;
@@ -352,12 +357,13 @@ void Remapper::carry(const Fields& fields, const Host& host)
     _nodes.keep_density<G>(_cells.touched, fields.cells[fields.density].values,
                            _x);
   const Options& o = _options;
-  std::size_t entry = carry_all(_cells, fields.cells, o.scheme, _cell_halo, 2,
-                                _masses ? fields.density : -1);
+  std::size_t entry = carry_all(_cells, fields.cells, o.scheme, _cell_halo,
+                                host, 2, _masses ? fields.density : -1);
   if (_fine)
     entry = carry_all(_points->volumes, fields.points, o.scheme, _point_halo,
-                      entry);
-  entry = carry_all(_nodes, fields.nodes, o.nodal_scheme, _node_halo, entry);
+                      host, entry);
+  entry =
+      carry_all(_nodes, fields.nodes, o.nodal_scheme, _node_halo, host, entry);
   if (_masses)
     carry_masses<G>(fields, entry, host);
 }
@@ -466,7 +472,6 @@ void Remapper::prepare_halos(const Host& host)
   { host.update_cells(v, block); };
   _node_halo = [&host](std::span<double> v, int block)
   { host.update_nodes(v, block); };
-  _sum = [&host](std::span<double> v) { host.sum(v); };
   if (_fine)
     _point_halo = [&host, points = _options.points->points()](
                       std::span<double> v, int block)

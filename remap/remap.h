@@ -145,7 +145,8 @@ private:
   void carry_masses(const Fields& fields, std::size_t entry, const Host& host);
   std::size_t carry_all(ControlVolumes& volumes, std::span<const Field> fields,
                         const Scheme& scheme, const Halo& halo,
-                        std::size_t entry, int with_amounts = -1);
+                        const Host& host, std::size_t entry,
+                        int with_amounts = -1);
   void repair(const Fields& fields, const Host& host);
   void settle(const Fields& fields, const Host& host, Ledger& ledger);
 
@@ -166,7 +167,6 @@ private:
   std::vector<double> _flags;             // per node, for the halo
   std::vector<Exchange> _book;            // this call: volumes, all fields
   Halo _cell_halo, _point_halo, _node_halo;
-  Sum _sum;
   Repair _repair;
 };
 } // namespace remap

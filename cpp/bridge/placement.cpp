@@ -60,7 +60,7 @@ std::vector<int> sides_of_nodes(const mesh::Domain& domain)
 Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
                      const std::vector<std::string>& surfaces)
     : _domain(domain), _kinds(domain.num_nodes(), Kind::free),
-      _direction(2 * domain.num_nodes(), 0), _mesh(mesh),
+      _direction(2 * domain.num_nodes(), 0), _mesh(mesh), _curve(mesh),
       _motion(2 * domain.num_nodes(), 0)
 {
   const auto surface = [&](std::size_t b)
@@ -77,13 +77,15 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
           _kinds[n] = Kind::surface;
   for (int n = 0; n < domain.num_nodes(); ++n)
     if (side_of[n] != none and _kinds[n] == Kind::free)
-      _kinds[n] = Kind::fixed; // `turn` lets those of straight sides slide
+    {
+      _kinds[n] = Kind::fixed; // `turn` lets those slide that may
+      if (side_of[n] == smooth)
+        _curved.push_back(n);
+    }
   add_sides(side_of);
   turn(domain.initial_x);
   for (Kind k : _kinds)
     _on_surface.push_back(k == Kind::surface);
-  _placed = _kinds;
-  std::ranges::replace(_placed, Kind::slide, Kind::fixed);
   const auto& around = mesh.node_nodes();
   for (int n = 0; n < mesh.num_nodes(); ++n)
     for (int m : around[n])
@@ -174,7 +176,31 @@ void Placement::turn(std::span<const double> x)
   const auto bend = bends(x, ends(x));
   for (std::size_t s = 0; s < _sides.size(); ++s)
     for (int n : _sides[s].nodes)
-      _kinds[n] = bend[s] < straight ? Kind::slide : Kind::fixed;
+      _kinds[n] = bend[s] < straight ? Kind::slide : on_curve(n, x);
+  for (int n : _curved)
+    _kinds[n] = on_curve(n, x);
+  _placed = _kinds;
+  std::ranges::replace(_placed, Kind::slide, Kind::fixed);
+  ::remap::Host host;
+  host.node_halo = [this](std::span<double> v, int block)
+  { _domain.node_halo->update(v, block); };
+  _curve.follow(x, _kinds, host);
+}
+
+/// `curve`, but for corners; of nodes of ours.
+Kind Placement::on_curve(int node, std::span<const double> x) const
+{
+  const auto [in, out] = _mesh.boundary_facets(node);
+  if (in < 0 or out < 0)
+    return Kind::fixed;
+  const auto u = ::remap::point(x, node)
+                 - ::remap::point(x, _mesh.facet(in)[0]),
+             v = ::remap::point(x, _mesh.facet(out)[1])
+                 - ::remap::point(x, node);
+  return ::remap::dot(u, v)
+                 > corner * std::sqrt(::remap::dot(u, u) * ::remap::dot(v, v))
+             ? Kind::curve
+             : Kind::fixed;
 }
 
 /// The first spacing on sides that are straight now.

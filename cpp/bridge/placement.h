@@ -3,6 +3,7 @@
 
 #include "mesh/domain.h"
 #include "output/archive.h"
+#include "remap/smoothing/boundary_curve.h"
 #include "remap/smoothing/smooth.h"
 #include <span>
 #include <string>
@@ -21,21 +22,26 @@ public:
   Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
             const std::vector<std::string>& surfaces);
 
-  /// For patches: nodes slide along straight sides, stay on a free surface,
-  /// and stay with the material at corners, on curved boundaries and where two
+  /// For patches: nodes slide along straight sides and curved boundaries, stay
+  /// on a free surface, and stay with the material at corners and where two
   /// boundaries meet; shape (nodes).
   std::span<const ::remap::Kind> kinds() const { return _kinds; }
 
-  /// For the whole mesh: boundary nodes are where `start` has put them.
+  /// For the whole mesh: nodes of straight sides are where `start` has put
+  /// them.
   std::span<const ::remap::Kind> kinds_placed() const { return _placed; }
 
   /// 1 for nodes of free surfaces, shape (nodes).
   std::span<const std::uint8_t> on_surface() const { return _on_surface; }
 
-  /// Sliding follows the boundary as it is now; nodes of sides that have bent
-  /// stay with the material. To be called before `kinds` is used. Collective.
+  /// Sliding follows the boundary as it is now; sides that have bent are curved
+  /// boundaries, and where one turns by more than 45° at a node this stays with
+  /// the material. To be called before `kinds` are used. Collective.
   /// @param[in] x nodes, shape (nodes, 2) [m]
   void turn(std::span<const double> x);
+
+  /// What nodes of kind `curve` are held to.
+  const ::remap::Guide& curve() const { return _curve; }
 
   /// Along the boundary, for sliding nodes; shape (nodes, 2).
   std::span<const double> direction() const { return _direction; }
@@ -71,6 +77,7 @@ private:
   /// boundary moves evenly.
   static constexpr int sweeps = 20;
   void add_sides(std::span<const int> side_of);
+  ::remap::Kind on_curve(int node, std::span<const double> x) const;
   void place_sides(std::vector<double>& x) const;
   void follow_boundary();
   std::vector<std::array<double, 4>> ends(std::span<const double> x) const;
@@ -79,10 +86,12 @@ private:
 
   const mesh::Domain& _domain;
   std::vector<::remap::Kind> _kinds, _placed;
+  std::vector<int> _curved; ///< nodes of curved boundaries
   std::vector<std::uint8_t> _on_surface;
   std::vector<double> _direction;
   std::vector<Side> _sides;
   const ::remap::Mesh& _mesh;
+  ::remap::BoundaryCurve _curve;
   std::vector<double> _weight; ///< of the mesh's node-to-node entries
   std::vector<double> _motion; ///< of all nodes in the last call, (nodes, 2)
 };

@@ -7,6 +7,7 @@
 #include "point_mesh.h"
 #include "remap/quality/quality.h"
 #include "remap/remap.h"
+#include "remap/smoothing/relax.h"
 #include "remap/smoothing/smooth.h"
 #include <algorithm>
 #include <cmath>
@@ -283,9 +284,11 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   }
   ::remap::Constraints constraints{.kinds = placement->kinds(),
                                    .direction = placement->direction(),
+                                   .guide = &placement->curve(),
                                    .spacing = spacing,
                                    .targets = targets};
   auto outcome = ::remap::Outcome::inverted_start;
+  placement->turn(state.x);
   if (whole)
   {
     // the surface first, so that the body follows it where it will be
@@ -300,13 +303,15 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   }
   if (outcome != ::remap::Outcome::ok)
   {
-    placement->turn(state.x);
     constraints.kinds = placement->kinds();
     x = state.x;
     outcome = smoothing->smooth(x, flags, constraints, host);
   }
   if (outcome != ::remap::Outcome::ok)
     log.trouble = ::remap::describe(outcome);
+  else if (scene.remap.max_turnover > 0)
+    ::remap::relax(mesh, geometry(scene), scene.remap.max_turnover, state.x, x,
+                   host);
   return outcome == ::remap::Outcome::ok;
 }
 

@@ -234,7 +234,9 @@ struct Remap
   std::string target = "initial"; ///< shape aimed at: "initial" | "equilateral"
   int sweeps = 5;                 ///< of the smoother
   std::string transport = "limited_linear"; ///< name in the library's list
-  double max_loss = 0.5; ///< share of a cell that may leave in a sub-cycle
+  double max_loss = 0.5;   ///< share of a cell that may leave in a sub-cycle
+  double max_turnover = 0; ///< and in a remap, where nodes go only part of
+                           ///< their way rather than more; 0: no limit
   std::vector<std::string> surface; ///< boundaries that are free surfaces
   std::vector<std::string> open;    ///< boundaries through which fields pass
 };

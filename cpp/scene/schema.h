@@ -369,6 +369,11 @@ void keys(V& v, Remap& r)
   v({"max_loss", "-", "Share of a cell that may leave in one sub-cycle.",
      between(0, 1)},
     r.max_loss);
+  v({"max_turnover", "-",
+     "Share of a cell that may leave in one remap; where more would, all nodes "
+     "go only part of their way. 0: no limit.",
+     at_least(0)},
+    r.max_turnover);
   v({"surface", "", "Boundaries that are free surfaces."}, r.surface);
   v({"open", "", "Boundaries through which fields pass."}, r.open);
 }

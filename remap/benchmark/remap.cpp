@@ -159,6 +159,6 @@ BENCHMARK(donor_cell)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(one_per_cent)->Unit(benchmark::kMillisecond);
 BENCHMARK(nodal)->Unit(benchmark::kMillisecond);
-BENCHMARK(smooth<smoother::Average>)->Unit(benchmark::kMillisecond);
+BENCHMARK(smooth<smoother::AverageArea>)->Unit(benchmark::kMillisecond);
 BENCHMARK(smooth<smoother::Optimise>)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();

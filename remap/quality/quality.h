@@ -25,38 +25,44 @@ inline double radius_ratio(Point a, Point b, Point c)
   return area2 > 0 ? q : (area2 < 0 ? -q : 0.0);
 }
 
-/// Target triangle with edges u = b − a and v = c − a, reduced to what
-/// |T|²/(2 det T) needs, T = A W⁻¹, W = [u v], A = [b − a  c − a]:
-/// |T|²/(2 det T) = (α p·p − 2 β p·q + γ q·q) / det A with p, q the edges of A.
+/// Shape of a target triangle with edges u = b − a and v = c − a, T = A W⁻¹, W
+/// = [u v], A = [b − a  c − a]: with u laid along x and of length 1, v = (r, k)
+/// and
+///   |T|²/(2 det T) = (k |p|² + |q − r p|²/k)/(2 det A) with p, q the edges of
+///   A,
+/// a sum of squares: no digits are lost where cells are long and thin.
 struct Target
 {
-  double alpha = 0; ///< v·v / (2 det W)
-  double beta = 0;  ///< u·v / (2 det W)
-  double gamma = 0; ///< u·u / (2 det W)
+  double r = 0;    ///< u·v / u·u
+  double own = 0;  ///< k/2, k = u × v / u·u
+  double rest = 0; ///< 1/(2k)
 
   static constexpr Target of(Point u, Point v)
   {
-    const double w = 2 * cross(u, v);
-    return {dot(v, v) / w, dot(u, v) / w, dot(u, u) / w};
+    const double k = cross(u, v) / dot(u, u);
+    return {dot(u, v) / dot(u, u), k / 2, 1 / (2 * k)};
   }
 
   /// The same target seen from the next vertex: edges v − u and −u.
-  constexpr Target next() const
-  {
-    return {gamma, gamma - beta, alpha - 2 * beta + gamma};
-  }
+  constexpr Target next() const { return of({r - 1, 2 * own}, {-1, 0}); }
 };
 
+/// |T|² det A/(2 det T) for edges p, q of A.
+constexpr double squares(const Target& w, Point p, Point q)
+{
+  const Point m = q - w.r * p;
+  return w.own * dot(p, p) + w.rest * dot(m, m);
+}
+
 /// The equilateral target; `shape` is then the mean ratio 4√3 A / Σ l².
-inline constexpr Target equilateral = {
-    0.57735026918962576451, 0.28867513459481288225, 0.57735026918962576451};
+inline constexpr Target equilateral = {0.5, 0.43301270189221932338,
+                                       0.57735026918962576451};
 
 /// |T|²/(2 det T) for edges p = b − a, q = c − a: 1 at the target's shape,
 /// unbounded as the area falls to 0, negative when inverted.
 constexpr double distortion(const Target& w, Point p, Point q)
 {
-  return (w.alpha * dot(p, p) - 2 * w.beta * dot(p, q) + w.gamma * dot(q, q))
-         / cross(p, q);
+  return squares(w, p, q) / cross(p, q);
 }
 
 /// Shape against a target, 2 det T / |T|².
@@ -64,7 +70,6 @@ constexpr double shape(const Target& w, Point a, Point b, Point c)
 {
   const Point p = b - a;
   const Point q = c - a;
-  return cross(p, q)
-         / (w.alpha * dot(p, p) - 2 * w.beta * dot(p, q) + w.gamma * dot(q, q));
+  return cross(p, q) / squares(w, p, q);
 }
 } // namespace remap::quality

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, optimisation: minimise Σ |T|²/(2 det T) over the patch, T = A
-// W⁻¹, by Newton with backtracking. For equilateral targets this is the inverse
-// mean ratio; with the initial shapes as targets a graded mesh stays graded.
+// METHOD 4.1, optimisation: minimise Σ (|T|²/(2 det T))^n over the patch, T = A
+// W⁻¹, by Newton with backtracking. n = 1: for equilateral targets the inverse
+// mean ratio, Winslow's functional on triangles of one size; with the initial
+// shapes as targets a graded mesh stays graded. The greater n, the more the
+// worst cell counts.
 #pragma once
 
 #include "remap/smoothing/patch.h"
@@ -20,12 +22,26 @@ struct Distortion
   double xx = 0, xy = 0, yy = 0;
 };
 
-/// Σ N/D over the patch with the node at x; N = α p·p − 2β p·q + γ q·q and
-/// D = p × q, p = a − x, q = b − x. D is linear and N quadratic in x, so
-///   ∇(N/D)  = ∇N/D − N ∇D/D²
-///   ∇²(N/D) = 2κ I/D − (∇N ∇Dᵀ + ∇D ∇Nᵀ)/D² + 2N ∇D ∇Dᵀ/D³,
-/// κ = α − 2β + γ: quadratic over linear, convex where D > 0.
-inline Distortion distortion(std::span<const PatchCell> cells, Point x)
+/// f^n for n known to the compiler.
+template <int n>
+constexpr double power(double f)
+{
+  if constexpr (n <= 0)
+    return 1;
+  else if constexpr (n % 2 == 1)
+    return f * power<n - 1>(f);
+  else
+    return power<n / 2>(f) * power<n / 2>(f);
+}
+
+/// Σ f^n over the patch with the node at x, f = N/D; N = k/2 p·p + m·m/(2k) and
+/// D = p × q, p = a − x, q = b − x, m = q − r p. D is linear and N quadratic in
+/// x, so
+///   ∇f  = ∇N/D − N ∇D/D²
+///   ∇²f = ∇²N/D − (∇N ∇Dᵀ + ∇D ∇Nᵀ)/D² + 2N ∇D ∇Dᵀ/D³:
+/// quadratic over linear, convex where D > 0, and so is f^n.
+template <int n = 1>
+Distortion distortion_of_power(std::span<const PatchCell> cells, Point x)
 {
   Distortion out;
   for (const PatchCell& c : cells)
@@ -34,37 +50,55 @@ inline Distortion distortion(std::span<const PatchCell> cells, Point x)
     const Point p = c.a - x;
     const Point q = c.b - x;
     const double d = 1 / cross(p, q);
-    const double n =
-        w.alpha * dot(p, p) - 2 * w.beta * dot(p, q) + w.gamma * dot(q, q);
-    const Point gn = 2 * (w.beta - w.alpha) * p + 2 * (w.beta - w.gamma) * q;
-    const Point gd = {c.a.y - c.b.y, c.b.x - c.a.x};
-    const double f = n * d;
-    const Point g = d * gn - (f * d) * gd;
-    const double kappa = 2 * (w.alpha - 2 * w.beta + w.gamma) * d;
-    const double two = 2 * f * d * d;
-    out.f += f;
-    out.g = out.g + g;
-    out.xx += kappa - 2 * gn.x * gd.x * d * d + two * gd.x * gd.x;
-    out.yy += kappa - 2 * gn.y * gd.y * d * d + two * gd.y * gd.y;
-    out.xy += -(gn.x * gd.y + gn.y * gd.x) * d * d + two * gd.x * gd.y;
+    const Point m = q - w.r * p;
+    const double rest = w.rest * (1 - w.r);
+    // ∇N, ∇D and ∇²N, all over D.
+    const Point gn = (-2 * d) * (w.own * p + rest * m);
+    const Point gd = d * Point{c.a.y - c.b.y, c.b.x - c.a.x};
+    const double kappa = 2 * d * (w.own + rest * (1 - w.r));
+    const double f = d * (w.own * dot(p, p) + w.rest * dot(m, m));
+    const Point g = gn - f * gd;
+    const double xx = kappa - 2 * g.x * gd.x;
+    const double yy = kappa - 2 * g.y * gd.y;
+    const double xy = -(g.x * gd.y + g.y * gd.x);
+    if constexpr (n == 1)
+    {
+      out.f += f;
+      out.g = out.g + g;
+      out.xx += xx;
+      out.yy += yy;
+      out.xy += xy;
+    }
+    else
+    {
+      const double second = n * (n - 1) * power<n - 2>(f);
+      const double first = n * power<n - 1>(f);
+      out.f += power<n>(f);
+      out.g = out.g + first * g;
+      out.xx += first * xx + second * g.x * g.x;
+      out.yy += first * yy + second * g.y * g.y;
+      out.xy += first * xy + second * g.x * g.y;
+    }
   }
   return out;
 }
 
-struct Optimise
+/// Newton's method for the sum of n-th powers.
+template <int n>
+struct Newton
 {
-  static constexpr std::string_view name = "optimise";
   /// Newton steps a visit. Doubled: nothing but time, it converges in 2 to 4.
   static constexpr int max_steps = 5;
   /// Halvings of a step. Doubled: nothing but time.
   static constexpr int max_halvings = 12;
+  static constexpr double enough = 1e-3;
 
   static Point propose(const Patch& patch)
   {
     Point x = patch.x;
     for (int k = 0; k < max_steps; ++k)
     {
-      const Distortion now = distortion(patch.cells, x);
+      const Distortion now = distortion_of_power<n>(patch.cells, x);
       const Point step = newton(now, patch.along);
       Point y = x + step;
       int halvings = 0;
@@ -76,14 +110,13 @@ struct Optimise
       if (halvings == max_halvings)
         return x;
       x = y;
-      // Quadratic convergence: the next step would be below round-off.
-      if (-dot(now.g, step) < 1e-14 * now.f)
+      if (-dot(now.g, step) < enough * now.f)
         return x;
     }
     return x;
   }
 
-  /// Σ |T|²/(2 det T); infinite if a cell has no positive area.
+  /// Σ f^n; infinite if a cell has no positive area.
   static double value(std::span<const PatchCell> cells, Point x)
   {
     double f = 0;
@@ -93,7 +126,7 @@ struct Optimise
       const Point q = c.b - x;
       if (not(cross(p, q) > 0))
         return std::numeric_limits<double>::infinity();
-      f += quality::distortion(c.target, p, q);
+      f += power<n>(quality::distortion(c.target, p, q));
     }
     return f;
   }
@@ -112,5 +145,10 @@ private:
     return {(d.xy * d.g.y - d.yy * d.g.x) / det,
             (d.xy * d.g.x - d.xx * d.g.y) / det};
   }
+};
+
+struct Optimise : Newton<1>
+{
+  static constexpr std::string_view name = "optimise";
 };
 } // namespace remap::smoother

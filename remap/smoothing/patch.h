@@ -22,8 +22,9 @@ struct PatchCell
   quality::Target target; ///< its shape, seen from the node
 };
 
-/// Cells around a node. If `along` is set, the node may only move on that line;
-/// its length is 1.
+/// Cells around a node, one after the other counter-clockwise: each cell's `b`
+/// is the next one's `a`, but where the boundary is between. If `along` is set,
+/// the node may only move on that line; its length is 1.
 struct Patch
 {
   Point x;
@@ -39,6 +40,21 @@ concept Smoother = requires(const Patch& patch) {
   { S::name } -> std::convertible_to<std::string_view>;
   { S::propose(patch) } -> std::same_as<Point>;
 };
+
+/// Σ |T|²/(2 det T) around a node put at x; infinite if a cell inverts.
+inline double distortion(std::span<const PatchCell> cells, Point x)
+{
+  double f = 0;
+  for (const PatchCell& c : cells)
+  {
+    const Point p = c.a - x;
+    const Point q = c.b - x;
+    if (not(cross(p, q) > 0))
+      return std::numeric_limits<double>::infinity();
+    f += quality::distortion(c.target, p, q);
+  }
+  return f;
+}
 
 /// How the worst cell of a patch is judged.
 enum class Measure
@@ -62,6 +78,20 @@ inline double worst(std::span<const PatchCell> cells, Point x, Measure measure)
     q = std::min(q, one);
   }
   return q;
+}
+
+/// f(place) for every neighbour of a patch's node.
+template <class F>
+void each_neighbour(std::span<const PatchCell> cells, F&& f)
+{
+  Point last = cells.back().b;
+  for (const PatchCell& c : cells)
+  {
+    f(c.a);
+    if (not(last == c.a)) // the end of the fan before
+      f(last);
+    last = c.b;
+  }
 }
 
 /// Foot of p on the patch's line, p itself if it has none.

@@ -2,12 +2,15 @@
 
 #include "remap/smoothing/smooth.h"
 
+#include "remap/smoothing/cell_quality.h"
 #include "remap/smoothing/colouring.h"
 #include "remap/smoothing/surface.h"
+#include "remap/smoothing/untangle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 using namespace remap;
 
@@ -18,24 +21,14 @@ constexpr int max_halvings = 4;
 /// Steps shorter than this part of the patch are not made: a node at its best
 /// place must stay there to the last bit.
 constexpr double least_step = 1e-10;
+/// Passes of untangling before it is given up.
+constexpr int max_passes = 100;
+/// Part of its patch's mean that a cell's area shall have after untangling.
+constexpr double sound = 1e-3;
+/// Quality at which a cell is taken for inverted: from nearer to zero a barrier
+/// lets a node off by too small steps.
+constexpr double thin = 1e-6;
 
-quality::Target target_of(std::span<const quality::Target> targets,
-                          std::int32_t c)
-{
-  return targets.empty() ? quality::equilateral : targets[c];
-}
-
-double quality_of(const Mesh& mesh, std::span<const double> x, Measure measure,
-                  std::span<const quality::Target> targets, std::int32_t cell)
-{
-  const Triple& n = mesh.cell(cell);
-  const Point a = point(x, n[0]);
-  const Point b = point(x, n[1]);
-  const Point c = point(x, n[2]);
-  return measure == Measure::radius_ratio
-             ? quality::radius_ratio(a, b, c)
-             : quality::shape(target_of(targets, cell), a, b, c);
-}
 } // namespace
 
 std::vector<std::string> SmoothingOptions::complaints() const
@@ -47,14 +40,15 @@ std::vector<std::string> SmoothingOptions::complaints() const
     out.push_back("rings: must not be negative");
   if (sweeps < 1)
     out.push_back("sweeps: must be at least 1");
-  if (not(relaxation > 0 and relaxation <= 1))
-    out.push_back("relaxation: must lie in (0, 1]");
+  if (not(relaxation > 0 and relaxation < 2))
+    out.push_back("relaxation: must lie in (0, 2)");
   return out;
 }
 
 Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
                      const Host& host)
-    : _mesh(&mesh), _options(std::move(options))
+    : _mesh(&mesh), _options(std::move(options)), _stars(mesh),
+      _zigzag(mesh, host)
 {
   if (const auto all = _options.complaints(); not all.empty())
   {
@@ -67,10 +61,10 @@ Smoothing::Smoothing(const Mesh& mesh, SmoothingOptions options,
   const auto last = std::max_element(_colour.begin(), _colour.end());
   _num_colours =
       static_cast<int>(host.max(last == _colour.end() ? 0.0 : 1.0 + *last));
-  std::size_t widest = 0;
-  for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
-    widest = std::max(widest, mesh.node_cells()[i].size());
-  _patch.reserve(widest);
+  _patch.reserve(_stars.widest());
+  _cells.reserve(mesh.num_cells());
+  _near.resize(mesh.num_cells());
+  _before.resize(2 * static_cast<std::size_t>(mesh.num_nodes()));
   _order.reserve(mesh.owned_nodes());
   _start.resize(_num_colours + 1);
   _flags.resize(mesh.num_nodes());
@@ -112,18 +106,20 @@ bool Smoothing::sizes_fit(std::span<const double> x,
                           const Constraints& c) const
 {
   const auto n = static_cast<std::size_t>(_mesh->num_nodes());
-  const bool slides =
-      std::find(c.kinds.begin(), c.kinds.end(), Kind::slide) != c.kinds.end();
+  const auto any = [&](Kind kind)
+  { return std::find(c.kinds.begin(), c.kinds.end(), kind) != c.kinds.end(); };
   const auto facets = static_cast<std::size_t>(_mesh->num_facets());
   const auto cells = static_cast<std::size_t>(_mesh->num_cells());
   return x.size() == 2 * n and flags.size() == n and c.kinds.size() == n
-         and (slides ? c.direction.size() == 2 * n
-                     : c.direction.empty() or c.direction.size() == 2 * n)
+         and (any(Kind::curve) ? c.guide != nullptr : true)
+         and (any(Kind::slide)
+                  ? c.direction.size() == 2 * n
+                  : c.direction.empty() or c.direction.size() == 2 * n)
          and (c.spacing.empty() or c.spacing.size() == facets)
          and (c.targets.empty() or c.targets.size() == cells);
 }
 
-/// Flagged nodes of ours that may move, sorted by colour.
+/// Flagged nodes of ours that may move, sorted by colour, and their cells.
 void Smoothing::collect(std::span<const std::uint8_t> flags,
                         const Constraints& c)
 {
@@ -142,51 +138,70 @@ void Smoothing::collect(std::span<const std::uint8_t> flags,
   for (int k = _num_colours; k > 0; --k)
     _start[k] = _start[k - 1];
   _start[0] = 0;
-}
-
-/// Worst quality around our flagged nodes; global number of an inverted cell.
-double Smoothing::worst_around(std::span<const double> x, const Constraints& c,
-                               double& inverted) const
-{
-  double q = 1;
+  _cells.clear();
+  std::fill(_near.begin(), _near.end(), std::uint8_t(0));
   for (std::int32_t i : _order)
     for (std::int32_t cell : _mesh->node_cells()[i])
-    {
-      const double one =
-          quality_of(*_mesh, x, _options.measure, c.targets, cell);
-      q = std::min(q, one);
-      if (not(one > 0))
-        inverted =
-            std::max(inverted, static_cast<double>(_mesh->cell_ids()[cell]));
-    }
-  return q;
+      if (not std::exchange(_near[cell], std::uint8_t(1)))
+        _cells.push_back(cell);
 }
 
-/// The patch of a node into _patch.
-void Smoothing::gather(std::int32_t node, std::span<const double> x,
-                       const Constraints& c)
+Smoothing::Worst Smoothing::worst_of(std::span<const double> x,
+                                     const Constraints& c) const
 {
-  _patch.clear();
-  for (std::int32_t cell : _mesh->node_cells()[node])
+  Worst out;
+  for (std::int32_t cell : _cells)
   {
-    const Triple& n = _mesh->cell(cell);
-    quality::Target w = target_of(c.targets, cell);
-    int i = 0;
-    for (; n[i] != node; ++i)
-      w = w.next();
-    _patch.push_back({point(x, n[(i + 1) % 3]), point(x, n[(i + 2) % 3]), w});
+    const double one = quality_of(*_mesh, x, _options.measure, c.targets, cell);
+    out.quality = std::min(out.quality, one);
+    if (not(one > 0))
+    {
+      out.inverted =
+          std::max(out.inverted, static_cast<double>(_mesh->cell_ids()[cell]));
+      out.count += cell < _mesh->owned_cells();
+    }
   }
+  return out;
 }
 
-// A worst cell that the move leaves as it is differs in its last digits; these
-// must not decide, or the result would depend on them.
-constexpr double round_off = 1e-12;
+/// The patch of a node; its cells are in _patch.
+Patch Smoothing::gather(std::int32_t node, std::span<const double> x,
+                        const Constraints& c)
+{
+  _stars.gather(node, x, c.targets, _patch);
+  Patch out{point(x, node), _patch, {}};
+  if (c.kinds[node] == Kind::slide or c.kinds[node] == Kind::curve)
+  {
+    const Point t = c.kinds[node] == Kind::slide
+                        ? point(c.direction, node)
+                        : c.guide->foot(node, out.x).along;
+    out.along = (1 / std::sqrt(dot(t, t))) * t;
+  }
+  return out;
+}
 
-/// Try a move and halves of it: `place(part)` is where the node would be.
-/// Returns the length of the step that was made.
-template <class Place>
-double Smoothing::accept(std::int32_t node, std::span<double> x, double floor,
-                         Place&& place)
+/// Is the worst cell of _patch at least so good with its node there? A worst
+/// cell that the move leaves as it is differs in its last digits; these must
+/// not decide, or the result would depend on them.
+bool Smoothing::no_worse(Point to, double floor) const
+{
+  constexpr double round_off = 1e-12;
+  const double q = worst(_patch, to, _options.measure);
+  return q > 0 and q >= floor - round_off;
+}
+
+void Smoothing::put(std::int32_t node, std::span<double> x, Point to)
+{
+  x[2 * node] = to.x;
+  x[2 * node + 1] = to.y;
+  _shifted[node] = 1;
+}
+
+/// Try a move and halves of it: `place(part)` is where the node would be,
+/// `good` tells if it may. Returns the length of the step that was made.
+template <class Place, class Good>
+double Smoothing::accept(std::int32_t node, std::span<double> x, Place&& place,
+                         Good&& good)
 {
   const Point old = point(x, node);
   double size = 0;
@@ -199,31 +214,53 @@ double Smoothing::accept(std::int32_t node, std::span<double> x, double floor,
     const double step = dot(to - old, to - old);
     if (not(step > least_step * least_step * size))
       return 0;
-    if (not(worst(_patch, to, _options.measure) >= floor - round_off))
+    if (not good(to))
       continue;
-    x[2 * node] = to.x;
-    x[2 * node + 1] = to.y;
-    _shifted[node] = 1;
+    put(node, x, to);
     return std::sqrt(step);
   }
   return 0;
+}
+
+/// A node that has left its curve goes back to it, with the right of a surface
+/// node. Returns where it is now.
+Point Smoothing::come_back(std::int32_t node, std::span<double> x,
+                           const Guide& guide)
+{
+  const Point old = point(x, node);
+  const double floor =
+      std::min(worst(_patch, old, _options.measure), _options.threshold);
+  accept(
+      node, x, [&](double part)
+      { return old + std::min(part, 1.0) * (guide.foot(node, old).at - old); },
+      [&](Point to) { return no_worse(to, floor); });
+  return point(x, node);
 }
 
 template <class S>
 double Smoothing::visit(std::int32_t node, std::span<double> x,
                         const Constraints& c)
 {
-  gather(node, x, c);
-  Patch patch{point(x, node), _patch, {}};
-  if (c.kinds[node] == Kind::slide)
-  {
-    const Point t = point(c.direction, node);
-    patch.along = (1 / std::sqrt(dot(t, t))) * t;
-  }
-  const Point goal = S::propose(patch);
+  Patch patch = gather(node, x, c);
+  if (c.kinds[node] == Kind::curve)
+    patch.x = come_back(node, x, *c.guide);
   const Point old = patch.x;
-  return accept(node, x, worst(_patch, old, _options.measure),
-                [&](double part) { return old + part * (goal - old); });
+  const Point goal = S::propose(patch);
+  const double q = worst(_patch, old, _options.measure);
+  const double least = std::max(_floor, std::min(q, _options.threshold));
+  return accept(
+      node, x,
+      [&](double part)
+      {
+        const Point to = old + part * (goal - old);
+        return c.kinds[node] == Kind::curve ? c.guide->foot(node, to).at : to;
+      },
+      [&](Point to)
+      {
+        return no_worse(to, q)
+               or (no_worse(to, least)
+                   and distortion(_patch, to) < distortion(_patch, old));
+      });
 }
 
 template <class S>
@@ -233,44 +270,81 @@ double Smoothing::visit_surface(std::int32_t node, std::span<double> x,
   const auto [in, out] = _mesh->boundary_facets(node);
   if (in < 0)
     return 0;
-  gather(node, x, c);
-  const Point old = point(x, node);
+  Patch patch = gather(node, x, c);
+  const Point old = patch.x;
   const Point before = point(x, _mesh->facet(in)[0]);
   const Point after = point(x, _mesh->facet(out)[1]);
   const Point chord = after - before;
   const double length2 = dot(chord, chord);
   const double now = dot(old - before, chord) / length2;
-  const double q = worst(_patch, old, _options.measure);
+  double floor = worst(_patch, old, _options.measure);
   double tau = now;
-  double floor = q;
   if (c.spacing.empty())
   {
-    Patch patch{old, _patch, (1 / std::sqrt(length2)) * chord};
+    patch.along = (1 / std::sqrt(length2)) * chord;
     tau = dot(S::propose(patch) - before, chord) / length2;
   }
   else
   {
     tau = surface::part(before, old, after, c.spacing[in], c.spacing[out]);
-    floor = std::min(q, _options.threshold);
+    floor = std::min(floor, _options.threshold);
   }
-  return accept(node, x, floor,
-                [&](double part)
-                {
-                  const double to = now + part * (tau - now);
-                  return _options.geometry == Geometry::plane
-                             ? surface::at<Geometry::plane>(before, old, after,
-                                                            to)
-                             : surface::at<Geometry::axisymmetric>(before, old,
-                                                                   after, to);
-                });
+  return accept(
+      node, x,
+      [&](double part)
+      {
+        const double to = now + part * (tau - now);
+        return _options.geometry == Geometry::plane
+                   ? surface::at<Geometry::plane>(before, old, after, to)
+                   : surface::at<Geometry::axisymmetric>(before, old, after,
+                                                         to);
+      },
+      [&](Point to) { return no_worse(to, floor); });
+}
+
+/// Until no cell that is worked on is inverted, nor so thin that a barrier has
+/// no hold on it. False if some remain inverted.
+bool Smoothing::untangle(std::span<double> x, const Constraints& c,
+                         const Host& host)
+{
+  for (int pass = 0; pass < max_passes; ++pass)
+  {
+    double moved = 0;
+    for (int colour = 0; colour < _num_colours; ++colour)
+    {
+      for (std::int32_t k = _start[colour]; k < _start[colour + 1]; ++k)
+      {
+        const std::int32_t i = _order[k];
+        if (c.kinds[i] == Kind::surface) // area would be lost or gained
+          continue;
+        const Patch patch = gather(i, x, c);
+        const double least = smallest_area(patch.cells, patch.x);
+        const double enough = sound * std::abs(mean_area(patch));
+        if (least > enough)
+          continue;
+        Point to = untangled(patch);
+        if (c.kinds[i] == Kind::curve)
+          to = c.guide->foot(i, to).at;
+        if (not(smallest_area(patch.cells, to) > least + sound * enough))
+          continue;
+        put(i, x, to);
+        moved = 1;
+      }
+      host.update_nodes(x, 2);
+    }
+    if (host.max(moved) == 0)
+      break;
+  }
+  return host.max(worst_of(x, c).inverted) < 0;
 }
 
 template <class S>
-void Smoothing::sweeps(std::span<double> x, const Constraints& c,
-                       const Host& host)
+void Smoothing::sweeps(std::span<double> x, std::span<const std::uint8_t> flags,
+                       const Constraints& c, bool surfaces, const Host& host)
 {
   for (int sweep = 0; sweep < _options.sweeps; ++sweep)
   {
+    _floor = _report.worst_after;
     double longest = 0;
     for (int colour = 0; colour < _num_colours; ++colour)
     {
@@ -283,9 +357,17 @@ void Smoothing::sweeps(std::span<double> x, const Constraints& c,
       }
       host.update_nodes(x, 2);
     }
-    longest = host.max(longest);
-    _report.largest_step = std::max(_report.largest_step, longest);
-    if (longest == 0)
+    if (surfaces)
+      longest =
+          std::max(longest, _zigzag.remove(x, flags, c.kinds,
+                                           {_options.geometry, _options.measure,
+                                            _options.threshold, c.targets},
+                                           host));
+    double state[2] = {longest, -worst_of(x, c).quality};
+    host.max(std::span(state, 2));
+    _report.largest_step = std::max(_report.largest_step, state[0]);
+    _report.worst_after = -state[1];
+    if (state[0] == 0)
       return;
   }
 }
@@ -301,25 +383,34 @@ Outcome Smoothing::smooth(std::span<double> x,
   _order.clear();
   if (fit)
     collect(flags, c);
-  double inverted = -1;
-  const double q = fit and finite ? worst_around(x, c, inverted) : 1;
-  double state[4] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, inverted, -q};
-  host.max(std::span(state, 4));
+  const Worst first = fit and finite ? worst_of(x, c) : Worst{};
+  double state[5] = {fit ? 0.0 : 1.0, finite ? 0.0 : 1.0, first.inverted,
+                     -first.quality,
+                     std::ranges::count(c.kinds, Kind::surface) > 0 ? 1. : 0.};
+  host.max(std::span(state, 5));
   if (state[0] > 0)
     return Outcome::wrong_size;
   if (state[1] > 0)
     return Outcome::not_finite;
   _report.worst_before = _report.worst_after = -state[3];
   _report.worst_cell = static_cast<std::int64_t>(state[2]);
-  if (_report.worst_cell >= 0)
-    return Outcome::inverted_start;
-
   std::fill(_shifted.begin(), _shifted.end(), std::uint8_t(0));
-  std::visit([&]<class S>(const S&) { sweeps<S>(x, c, host); },
+  if (not(_report.worst_before > thin))
+  {
+    std::copy(x.begin(), x.end(), _before.begin());
+    if (not untangle(x, c, host))
+    {
+      std::copy(_before.begin(), _before.end(), x.begin());
+      return Outcome::inverted_start;
+    }
+    _report.untangled = static_cast<std::int32_t>(first.count);
+    _report.worst_after = -host.max(-worst_of(x, c).quality);
+  }
+  std::visit([&]<class S>(const S&)
+             { sweeps<S>(x, flags, c, state[4] > 0, host); },
              _options.smoother);
   _report.moved = static_cast<std::int32_t>(
       std::count(_shifted.begin(), _shifted.end(), 1));
-  _report.worst_after = -host.max(-worst_around(x, c, inverted));
   return Outcome::ok;
 }
 

@@ -2,7 +2,7 @@
 //
 // METHOD 4.1: move flagged nodes so that cells get a better shape. In: node
 // positions and what each node may do; out: better positions. Kept: no cell
-// inverts, no patch gets a worse worst cell (surface nodes: see `Kind`), nodes
+// inverts, the worst cell does not get worse (surface nodes: see `Kind`), nodes
 // without a flag stay to the last bit, the result is the same on any number of
 // ranks.
 #pragma once
@@ -10,7 +10,11 @@
 #include "remap/host.h"
 #include "remap/mesh.h"
 #include "remap/outcome.h"
+#include "remap/smoothing/guide.h"
+#include "remap/smoothing/kind.h"
 #include "remap/smoothing/library.h"
+#include "remap/smoothing/stars.h"
+#include "remap/smoothing/zigzag.h"
 
 #include <span>
 #include <string>
@@ -18,19 +22,6 @@
 
 namespace remap
 {
-/// What a node may do.
-enum class Kind : std::uint8_t
-{
-  fixed,   ///< stays
-  free,    ///< goes anywhere
-  slide,   ///< along its direction
-  surface, ///< parallel to the chord of its neighbours on the boundary, keeping
-           ///< area or volume. With a spacing it goes where the lengths of its
-           ///< two facets have the wanted ratio, and may lower its patch's
-           ///< worst quality, but not below the threshold; without, it goes
-           ///< where the smoother wants it, like a sliding node.
-};
-
 /// How to smooth.
 struct SmoothingOptions
 {
@@ -38,7 +29,9 @@ struct SmoothingOptions
   SmootherChoice smoother = smoother::Optimise{};
   /// How quality is judged; `shape` needs targets to be more than mean ratio.
   Measure measure = Measure::radius_ratio;
-  /// Quality below which a cell asks for help.
+  /// Quality below which a cell asks for help. A patch whose worst cell is
+  /// above may get a worse one where its mean distortion falls, but not below
+  /// the threshold, nor below the worst cell of all.
   double threshold = 0.3;
   /// Rings of nodes around those of bad cells that move too. Doubled: larger
   /// patches, softer transitions, more cost.
@@ -46,8 +39,8 @@ struct SmoothingOptions
   /// Passes over the flagged nodes. Doubled: closer to the optimum, twice the
   /// cost.
   int sweeps = 5;
-  /// Part of a proposed step that is taken, in (0, 1]. Doubled: faster, up
-  /// to 1.
+  /// Part of a proposed step that is taken, in (0, 2). Above 1 (1.5 … 1.7) the
+  /// mesh as a whole settles in a third of the sweeps, single bad cells later.
   double relaxation = 1;
 
   /// Every problem, in words; empty is good.
@@ -62,6 +55,8 @@ struct Constraints
   /// Of sliding nodes, any length > 0, shape (num_nodes, 2); empty if none
   /// slides.
   std::span<const double> direction = {};
+  /// Of nodes of kind `curve`; none needed if there is no such node.
+  const Guide* guide = nullptr;
   /// Wanted length of each facet (only ratios matter), shape (num_facets);
   /// empty: see `Kind::surface`.
   std::span<const double> spacing = {};
@@ -77,6 +72,7 @@ struct SmoothingReport
   double worst_after = 1;
   double largest_step = 0;      ///< of a node, over all sweeps [m]
   std::int32_t moved = 0;       ///< nodes of this rank
+  std::int32_t untangled = 0;   ///< cells that were inverted at the start
   std::int64_t worst_cell = -1; ///< global number, where a cell is inverted
 };
 
@@ -99,6 +95,8 @@ public:
             std::span<std::uint8_t> flags, const Host& host);
 
   /// Move flagged nodes. Collective. Nothing moves unless the outcome is ok.
+  /// Where cells are inverted at the start, flagged nodes around them go to
+  /// where they are not, if there is such a place: `untangle.h`.
   ///
   /// @param[in,out] x     shape (num_nodes, 2), ghosts up to date in and out
   /// [m]
@@ -121,31 +119,48 @@ private:
                                std::span<const std::uint8_t> flags,
                                const Constraints& c) const;
   void collect(std::span<const std::uint8_t> flags, const Constraints& c);
-  [[nodiscard]] double worst_around(std::span<const double> x,
-                                    const Constraints& c,
-                                    double& inverted) const;
-  void gather(std::int32_t node, std::span<const double> x,
-              const Constraints& c);
+  /// Qualities of the cells that are worked on.
+  struct Worst
+  {
+    double quality = 1;
+    double inverted = -1; ///< global number of an inverted cell
+    double count = 0;     ///< inverted cells of ours
+  };
+  [[nodiscard]] Worst worst_of(std::span<const double> x,
+                               const Constraints& c) const;
+  Patch gather(std::int32_t node, std::span<const double> x,
+               const Constraints& c);
   template <class S>
   double visit(std::int32_t node, std::span<double> x, const Constraints& c);
   template <class S>
   double visit_surface(std::int32_t node, std::span<double> x,
                        const Constraints& c);
-  template <class Place>
-  double accept(std::int32_t node, std::span<double> x, double floor,
-                Place&& place);
+  template <class Place, class Good>
+  double accept(std::int32_t node, std::span<double> x, Place&& place,
+                Good&& good);
+  [[nodiscard]] bool no_worse(Point to, double floor) const;
+  Point come_back(std::int32_t node, std::span<double> x, const Guide& guide);
+  void put(std::int32_t node, std::span<double> x, Point to);
+  bool untangle(std::span<double> x, const Constraints& c, const Host& host);
   template <class S>
-  void sweeps(std::span<double> x, const Constraints& c, const Host& host);
+  void sweeps(std::span<double> x, std::span<const std::uint8_t> flags,
+              const Constraints& c, bool surfaces, const Host& host);
 
   const Mesh* _mesh;
   SmoothingOptions _options;
+  Stars _stars;
+  Zigzag _zigzag;
   SmoothingReport _report;
   int _num_colours = 0;
   std::vector<std::int32_t> _colour;
+  double _floor = 0;                  // no cell gets worse than that
   std::vector<std::int32_t> _order;   // flagged nodes of ours, by colour
   std::vector<std::int32_t> _start;   // first of each colour in _order
+  std::vector<std::int32_t> _cells;   // around them, each once
+  std::vector<std::uint8_t> _near;    // is a cell in _cells?
   std::vector<PatchCell> _patch;      // of one node
   std::vector<double> _flags;         // for the halo
+  std::vector<double> _before;        // nodes before untangling
   std::vector<std::uint8_t> _shifted; // nodes that moved
 };
 

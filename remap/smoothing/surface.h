@@ -2,13 +2,15 @@
 //
 // METHOD 4.1: a node of a free surface moves parallel to the chord of its two
 // neighbours on the surface. The plane area does not change by that; in
-// axisymmetry a step across the chord keeps the volume.
+// axisymmetry a step across the chord keeps the volume. Two neighbours move
+// against each other and keep both.
 #pragma once
 
 #include "remap/geometry/measure.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace remap::surface
 {
@@ -68,5 +70,57 @@ inline double part(Point before, Point p, Point after, double l1, double l2)
   const double tau =
       root >= 0 ? -2 * c / (b + std::sqrt(root)) : (a > 0 ? 0.0 : 1.0);
   return std::min(std::max(tau, 0.05), 0.95);
+}
+
+/// Steps of b and c on the way a, b, c, d: across its chord, along `across`.
+struct Step
+{
+  Point across{};    ///< length 1
+  double first = 0;  ///< of b [m]
+  double second = 0; ///< of c, so that the plane area is kept [m]
+};
+
+/// Steps after which one of the turns at b and c, of opposite signs, is gone
+/// and the other one smaller; none where the way turns back along its chord.
+///
+/// Across the chord heights are linear in the steps: b is above the line a c by
+/// e, c above the line b d by f.
+inline Step straighten(Point a, Point b, Point c, Point d)
+{
+  const Point chord = d - a;
+  const double length = std::sqrt(dot(chord, chord));
+  const Point t = (1 / length) * chord;
+  Step out{{-t.y, t.x}};
+  const double ab = dot(b - a, t), bc = dot(c - b, t), cd = dot(d - c, t);
+  if (not(ab > 0 and bc > 0 and cd > 0))
+    return out;
+  const double hb = dot(b - a, out.across), hc = dot(c - a, out.across);
+  const double rb = ab / (ab + bc), rc = cd / (bc + cd);
+  const double e = hb - rb * hc, f = hc - rc * hb;
+  const double ratio = (ab + bc) / (bc + cd); // of the steps
+  const double first = e / (1 + ratio * rb);
+  const double second = f / (ratio + rc);
+  if (not(first * second < 0))
+    return out;
+  out.first =
+      -std::copysign(std::min(std::abs(first), std::abs(second)), first);
+  out.second = -ratio * out.first;
+  return out;
+}
+
+/// Where b and c are after a part of the steps, the volume kept.
+inline std::pair<Point, Point> pair_at(Geometry geometry, Point a, Point b,
+                                       Point c, Point d, double part,
+                                       const Step& step)
+{
+  const Point first = b + (part * step.first) * step.across;
+  const Point second = c + (part * step.second) * step.across;
+  if (geometry == Geometry::plane)
+    return {first, second};
+  const auto six = [](Point p, Point q, Point r)
+  { return twice_area(p, q, r) * (p.x + q.x + r.x); };
+  return {first,
+          keep_volume(first, second, d,
+                      six(first, c, d) - six(a, first, c) + six(a, b, c))};
 }
 } // namespace remap::surface

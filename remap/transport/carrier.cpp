@@ -31,11 +31,16 @@ kernel::Block<B> block_of(const Field& field, const Travel& travel,
 {
   const auto at = [first](std::span<const double> all)
   { return all.empty() ? nullptr : all.data() + first; };
+  std::array<double, B> weights;
+  weights.fill(1);
+  if (field.weights.size() == B)
+    std::copy_n(field.weights.begin(), B, weights.begin());
   return {.u = {field.values.data() + first,
                 static_cast<std::size_t>(field.components)},
           .least = at(field.least),
           .most = at(field.most),
           .inflow = at(field.inflow),
+          .weights = weights,
           .kinds = travel.boundaries,
           .book = book.subspan(first, B)};
 }
@@ -69,8 +74,8 @@ void note_amounts(const ControlVolumes& cv, const kernel::Block<1>& block,
 /// kinetic energy than there was, with what passed the boundary. The donor
 /// cell's never has more, because its velocities are means; with a part t of
 /// the correction the energy is E_L + b t + a t².
-template <int N>
-double kinetic_part(const kernel::Convex<N>& convex, const Sum& sum)
+template <int N, bool balls>
+double kinetic_part(const kernel::Convex<N, balls>& convex, const Host& host)
 {
   ControlVolumes& cv = convex.cv;
   const auto half_square = [](const double* v)
@@ -109,8 +114,7 @@ double kinetic_part(const kernel::Convex<N>& convex, const Sum& sum)
     room += (from < 0 ? 1 : -1) * cv.outer.volume[p] * half_square(v);
   }
   double all[3] = {room, a, b};
-  if (sum)
-    sum(all);
+  host.sum(all);
   room = std::max(all[0], 0.0);
   if (all[1] + all[2] <= room)
     return 1;
@@ -122,17 +126,16 @@ double kinetic_part(const kernel::Convex<N>& convex, const Sum& sum)
 }
 
 /// One group that is limited as one.
-template <int N>
+template <int N, bool balls>
 double carry_convex(ControlVolumes& cv, const kernel::Block<N>& block,
                     const Travel& travel)
 {
   double part = 1;
-  kernel::transport_convex<N>(
-      cv, block, travel.halo,
-      [&](const kernel::Convex<N>& convex)
+  kernel::transport_convex<N, balls>(
+      cv, block, travel.halo, [&](double v) { return travel.host.max(v); },
+      [&](const kernel::Convex<N, balls>& convex)
       {
-        return part =
-                   travel.kinetic ? kinetic_part(convex, *travel.kinetic) : 1.0;
+        return part = travel.kinetic ? kinetic_part(convex, travel.host) : 1.0;
       });
   return part;
 }
@@ -152,8 +155,8 @@ double carry_with(ControlVolumes& cv, const Field& field, const Travel& travel,
             if constexpr (N > 1)
               part = std::min(
                   part,
-                  carry_convex<N>(cv, block_of<N>(field, travel, book, first),
-                                  travel));
+                  carry_convex<N, S::limiter::extends>(
+                      cv, block_of<N>(field, travel, book, first), travel));
           });
     return part;
   }

@@ -3,6 +3,7 @@
 // One field over one sub-cycle, whatever its scheme, components and groups.
 #pragma once
 
+#include "remap/host.h"
 #include "remap/transport/control_volumes.h"
 #include "remap/transport/field.h"
 #include "remap/transport/library.h"
@@ -13,8 +14,6 @@ namespace remap
 {
 /// Fills the ghosts of an array over volumes: halo(values, block).
 using Halo = std::function<void(std::span<double>, int)>;
-/// Sums numbers over all ranks.
-using Sum = std::function<void(std::span<double>)>;
 
 /// Does a limiter of the scheme look across facets?
 [[nodiscard]] bool looks_at_sides(const Scheme& scheme);
@@ -40,12 +39,13 @@ struct Travel
 {
   const Scheme& scheme;
   std::span<const Boundary> boundaries;
-  const Halo& halo;
+  const Halo& halo; ///< over the volumes
+  const Host& host; ///< for agreement on numbers
   /// Where a field of one component notes what its pieces take, or null.
   Amounts* amounts = nullptr;
   /// Volumes are masses and values velocities: a vector that is limited as one
-  /// must not gain kinetic energy. Empty: no such guard.
-  const Sum* kinetic = nullptr;
+  /// must not gain kinetic energy.
+  bool kinetic = false;
 };
 
 /// Carry one field; ghosts are filled at the end.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace remap
 {
@@ -65,6 +66,18 @@ struct CellVolumes : ControlVolumes
     const auto all = static_cast<std::size_t>(of.num_facets());
     ControlVolumes::reserve(of.cell_cells(), across, of.owned_cells(),
                             all - outer, outer, components);
+    const auto ids = of.cell_ids();
+    if (not std::is_sorted(ids.begin(), ids.end()))
+    {
+      at_place.resize(ids.size());
+      place.resize(ids.size());
+      std::iota(at_place.begin(), at_place.end(), 0);
+      std::sort(at_place.begin(), at_place.end(),
+                [&ids](std::int32_t a, std::int32_t b)
+                { return ids[a] < ids[b]; });
+      for (std::size_t k = 0; k < ids.size(); ++k)
+        place[at_place[k]] = static_cast<std::int32_t>(k);
+    }
     facets.reserve(all - outer);
     boundary.reserve(outer);
     if (with_pieces)

@@ -71,8 +71,11 @@ struct ControlVolumes
   std::array<Pair, SweptBatch::room> sides; ///< volumes beside them
 
   std::vector<std::int32_t> touched; ///< volumes that change
-  std::vector<std::int32_t> ring;    ///< neighbours of ours among them
-  std::vector<std::uint8_t> mark;    ///< 1 touched, 2 ring
+  /// Place of a volume in the order of global numbers, and the volume at a
+  /// place; empty if that is the local order.
+  std::vector<std::int32_t> place, at_place;
+  std::vector<std::int32_t> ring; ///< neighbours of ours among them
+  std::vector<std::uint8_t> mark; ///< 1 touched, 2 ring
 
   std::vector<double> gradient; ///< (num, components, 2)
   std::vector<double> content;  ///< integrals, (num, components)
@@ -125,15 +128,20 @@ struct ControlVolumes
     }
   }
 
-  /// Volumes that change in the order of memory, whichever way they were found.
+  /// Volumes that change, in the order of their global numbers, whichever way
+  /// they were found: sums over what they exchange are then the same on any
+  /// number of ranks, to the last bit.
   void order()
   {
+    const auto before = [this](std::int32_t a, std::int32_t b)
+    { return place.empty() ? a < b : place[a] < place[b]; };
     // Sorting is dearer than looking at all once they are many.
     if (touched.size() * 16 < static_cast<std::size_t>(num))
-      return std::sort(touched.begin(), touched.end());
+      return std::sort(touched.begin(), touched.end(), before);
     touched.clear();
-    for (std::int32_t i = 0; i < num; ++i)
-      if (mark[i] == 1)
+    for (std::int32_t k = 0; k < num; ++k)
+      if (const std::int32_t i = at_place.empty() ? k : at_place[k];
+          mark[i] == 1)
         touched.push_back(i);
   }
 

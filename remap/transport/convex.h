@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: a vector or tensor over one sub-cycle, limited as one. Its values
-// stay in the convex hull of the old ones at its place and around, in any
-// frame, so a convex set that holds all values holds them afterwards.
+// METHOD 4.3: a vector or tensor over one sub-cycle, limited as one, in a
+// convex set that its old values at its place and around span, in any frame.
 //
-// The donor cell's result is such a value: a mean of neighbours. To it the
-// pieces add what the linear functions carry more, each as much as the hulls on
-// both its sides allow. (A limiter of the gradients, as for scalars, must not
-// be used: a value on the rim of its neighbours' hull, as on a yield surface,
-// is no mean of two others, and every piece would have to carry the donor's
-// mean.)
+// The set is their convex hull: what lies in any convex set (a yield surface)
+// stays there. Or, for schemes that keep smooth extrema, the smallest ball
+// about their mean that holds them. Values that turn on a curved surface have a
+// hull thinner than what they vary in a cell: strictly in the hull,
+// conservation leaves order 1; the ball leaves order 2, and the host's own law
+// takes back what is left outside its surface.
+//
+// The donor cell's result is in both: a mean of neighbours. To it the pieces
+// add what the linear functions carry more, each as much as the sets on both
+// its sides allow. (A limiter of the gradients, as for scalars, must not be
+// used: a value on the rim of its hull is no mean of two others, and every
+// piece would have to carry the donor's mean.)
 // @source after the convex limiting of Guermond, Nazarov, Popov & Tomas (2018)
 #pragma once
 
@@ -18,8 +23,31 @@
 
 namespace remap::kernel
 {
-/// One vector of N components with its hulls.
+/// The part of a way, in [0, 1], that stays in a ball.
+/// @param[in] from from the ball's centre
+/// @param[in] room radius² − |from|²
 template <int N>
+double reach_in_ball(const hull::Vector<N>& weights,
+                     const hull::Vector<N>& from, const hull::Vector<N>& way,
+                     double room)
+{
+  double a = 0, b = 0;
+  for (int k = 0; k < N; ++k)
+  {
+    a += weights[k] * way[k] * way[k];
+    b += weights[k] * from[k] * way[k];
+  }
+  // The larger root of a t² + 2 b t = room, in the form that does not cancel.
+  if (a + 2 * b <= room)
+    return 1;
+  if (not(room > 0))
+    return 0;
+  const double root = std::sqrt(b * b + a * room);
+  return b > 0 ? room / (b + root) : (root - b) / a;
+}
+
+/// One vector of N components with its sets: hulls or balls.
+template <int N, bool balls>
 struct Convex
 {
   ControlVolumes& cv;
@@ -30,15 +58,10 @@ struct Convex
   {
     return &cv.lo[std::size_t(N) * i];
   }
-  /// Volume of all pieces in and out, over the new volume.
-  [[nodiscard]] double& exchanged(std::int32_t i) const
+  /// What the pieces change with their factors, per new volume.
+  [[nodiscard]] double* change(std::int32_t i) const
   {
-    return cv.hi[std::size_t(N) * i];
-  }
-  /// Distance that counts as none beside a volume's neighbours.
-  [[nodiscard]] double& close(std::int32_t i) const
-  {
-    return cv.hi[std::size_t(N) * i + 1];
+    return &cv.hi[std::size_t(N) * i];
   }
   [[nodiscard]] double& factor(std::int32_t i) const { return cv.factor[i]; }
 
@@ -100,45 +123,98 @@ struct Convex
     {
       for (int k = 0; k < N; ++k)
         low(i)[k] = cv.content[std::size_t(N) * i + k] / cv.next[i];
-      exchanged(i) = 0;
-      close(i) = i < cv.owned ? 1e-14 * size_around(i) : 0;
       factor(i) = 1;
     }
-    each_piece(
-        [this](std::int32_t from, std::int32_t to, const auto&, double v,
-               std::int32_t)
+  }
+
+  /// Part of a way from the donor cell's result that stays in the set.
+  [[nodiscard]] double reach(std::int32_t i, const hull::Vector<N>& way) const
+  {
+    hull::Vector<N> from;
+    std::copy_n(low(i), N, from.begin());
+    if constexpr (not balls)
+      return hull::reach<N>(around(i), from, way, 1e-13 * size_around(i));
+    const auto norm2 = [this](const hull::Vector<N>& v)
+    {
+      double sum = 0;
+      for (int k = 0; k < N; ++k)
+        sum += block.weights[k] * v[k] * v[k];
+      return sum;
+    };
+    const auto far2 = [&](const hull::Vector<N>& centre)
+    {
+      double most = 0;
+      around(i)(
+          [&](const double* u)
+          {
+            hull::Vector<N> d;
+            for (int k = 0; k < N; ++k)
+              d[k] = u[k] - centre[k];
+            most = std::max(most, norm2(d));
+          });
+      return most;
+    };
+    hull::Vector<N> mean{};
+    int n = 0;
+    around(i)(
+        [&](const double* u)
         {
-          exchanged(from) += v / cv.next[from];
+          ++n;
+          for (int k = 0; k < N; ++k)
+            mean[k] += u[k];
+        });
+    hull::Vector<N> off;
+    for (int k = 0; k < N; ++k)
+    {
+      mean[k] /= n;
+      off[k] = from[k] - mean[k];
+    }
+    return reach_in_ball<N>(block.weights, off, way, far2(mean) - norm2(off));
+  }
+
+  void find_changes() const
+  {
+    for (std::int32_t i : cv.touched)
+      std::fill_n(change(i), N, 0.0);
+    const auto add =
+        [this](std::int32_t i, double v, const hull::Vector<N>& value)
+    {
+      for (int k = 0; k < N; ++k)
+        change(i)[k] += v / cv.next[i] * value[k];
+    };
+    each_piece(
+        [&](std::int32_t from, std::int32_t to, const auto& value, double all,
+            std::int32_t)
+        {
+          const double v =
+              all * std::min(factor(from), to >= 0 ? factor(to) : 1.0);
+          add(from, -v, value);
           if (to >= 0)
-            exchanged(to) += v / cv.next[to];
+            add(to, v, value);
         });
   }
 
-  /// A volume's result is a mean, by the pieces' volumes, of what it would be
-  /// with each piece alone in the place of all: each of these must fit.
-  void find_factors() const
+  /// Lower the factors of our volumes that leave their sets.
+  /// @return did any?
+  bool lower_factors(int round) const
   {
-    const auto look =
-        [this](std::int32_t i, double sign, const hull::Vector<N>& value)
+    bool any = false;
+    for (std::int32_t i : cv.touched)
     {
-      if (i < 0 or i >= cv.owned or not(factor(i) > 0))
-        return;
-      hull::Vector<N> from, way;
-      for (int k = 0; k < N; ++k)
-      {
-        from[k] = low(i)[k];
-        way[k] = sign * exchanged(i) * value[k];
-      }
-      factor(i) =
-          std::min(factor(i), hull::reach<N>(around(i), from, way, close(i)));
-    };
-    each_piece(
-        [&look](std::int32_t from, std::int32_t to, const auto& value, double,
-                std::int32_t)
-        {
-          look(from, -1, value);
-          look(to, 1, value);
-        });
+      if (i >= cv.owned or not(factor(i) > 0))
+        continue;
+      hull::Vector<N> way;
+      std::copy_n(change(i), N, way.begin());
+      const double part = reach(i, way);
+      if (not(part < 1))
+        continue;
+      any = true;
+      // Neighbours that lower theirs change the sum: with a little more room
+      // than needed most are in after three rounds, and it must come to an end.
+      factor(i) *=
+          round < 6 ? 0.999 * part : std::min(part, round < 12 ? 0.5 : 0.0);
+    }
+    return any;
   }
 
   /// Add to the donor cell's contents what the factors let through.
@@ -184,20 +260,26 @@ struct Convex
 
 /// A vector or tensor of N components, limited as one, but for the halo of its
 /// new values. See `prepare`.
+/// @param[in] max   maximum over all ranks
 /// @param[in] guard gets the `Convex` with contents and the donor cell's
 ///                  results; tells which part of the difference may stay
-template <int N, class Halo, class Guard>
+template <int N, bool balls, class Halo, class Max, class Guard>
 void transport_convex(ControlVolumes& cv, const Block<N>& block, Halo&& halo,
-                      Guard&& guard)
+                      Max&& max, Guard&& guard)
 {
   for (std::int32_t i : cv.touched)
     if (i < cv.owned and cv.leaving[i] > 0)
       slope<N>(cv, i, block.u);
   halo(std::span(cv.gradient.data(), std::size_t(2) * N * cv.num), 2 * N);
-  const Convex<N> convex{cv, block};
+  const Convex<N, balls> convex{cv, block};
   convex.find_low();
-  convex.find_factors();
-  halo(std::span(cv.factor.data(), std::size_t(cv.num)), 1);
+  for (int round = 0;; ++round)
+  {
+    convex.find_changes();
+    if (not(max(convex.lower_factors(round) ? 1.0 : 0.0) > 0))
+      break;
+    halo(std::span(cv.factor.data(), std::size_t(cv.num)), 1);
+  }
   const auto passed = convex.add_limited();
   const double part = guard(convex);
   if (part < 1)

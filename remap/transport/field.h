@@ -24,6 +24,9 @@ struct Field
   /// neighbours; no frame is preferred, and what lies in a convex set (a yield
   /// surface) stays there.
   int group = 1;
+  /// Weights of a group's components in the square of its length, shape
+  /// (group): 1, 1, 1, 2 for a tensor xx, yy, zz, xy. Empty: all 1.
+  std::span<const double> weights = {};
   /// What flows in at open boundaries, shape (markers, components); may be
   /// empty if no boundary is open.
   std::span<const double> inflow = {};

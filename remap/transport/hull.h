@@ -55,8 +55,6 @@ public:
         return true;
       Vector<N> y;
       const double ahead = support(target, x, y);
-      if (ahead > 0)
-        return false;
       // No point is nearer to the target's side: x is the nearest.
       if (size2 - ahead <= 1e-14 * size2 or not add(y, x))
         return dot<N>(x, x) <= close * close;
@@ -166,49 +164,45 @@ private:
   /// on a smaller plane.
   bool affine(std::array<double, room>& w) const
   {
-    // Edges from the last point: (E Eᵀ) v = −E y_last by Cholesky.
+    // The least |last + Σ v e| over edges e from the last point, by
+    // orthogonalisation: products of edges would lose half the digits, and
+    // hulls can be thin.
     const int m = _size - 1;
-    std::array<Vector<N>, room> e;
-    std::array<std::array<double, room>, room> a;
-    std::array<double, room> b{};
+    std::array<Vector<N>, room> q;
+    std::array<std::array<double, room>, room> r;
+    std::array<double, room> b;
     const Vector<N>& last = _y[m];
-    for (int i = 0; i < m; ++i)
-    {
-      for (int k = 0; k < N; ++k)
-        e[i][k] = _y[i][k] - last[k];
-      b[i] = -dot<N>(e[i], last);
-      for (int j = 0; j <= i; ++j)
-        a[i][j] = dot<N>(e[i], e[j]);
-    }
+    Vector<N> rest;
+    for (int k = 0; k < N; ++k)
+      rest[k] = -last[k];
     for (int j = 0; j < m; ++j)
     {
-      const double full = a[j][j];
-      for (int k = 0; k < j; ++k)
-        a[j][j] -= a[j][k] * a[j][k];
-      if (not(a[j][j] > 1e-14 * full))
-        return false;
-      a[j][j] = std::sqrt(a[j][j]);
-      for (int i = j + 1; i < m; ++i)
+      for (int k = 0; k < N; ++k)
+        q[j][k] = _y[j][k] - last[k];
+      const double full = dot<N>(q[j], q[j]);
+      for (int i = 0; i < j; ++i)
       {
-        for (int k = 0; k < j; ++k)
-          a[i][j] -= a[i][k] * a[j][k];
-        a[i][j] /= a[j][j];
+        r[i][j] = dot<N>(q[i], q[j]);
+        for (int k = 0; k < N; ++k)
+          q[j][k] -= r[i][j] * q[i][k];
       }
-    }
-    for (int i = 0; i < m; ++i)
-    {
-      for (int k = 0; k < i; ++k)
-        b[i] -= a[i][k] * b[k];
-      b[i] /= a[i][i];
+      const double left = dot<N>(q[j], q[j]);
+      if (not(left > 1e-26 * full))
+        return false;
+      r[j][j] = std::sqrt(left);
+      for (int k = 0; k < N; ++k)
+        q[j][k] /= r[j][j];
+      b[j] = dot<N>(q[j], rest);
+      for (int k = 0; k < N; ++k)
+        rest[k] -= b[j] * q[j][k];
     }
     double sum = 0;
     for (int i = m - 1; i >= 0; --i)
     {
       for (int k = i + 1; k < m; ++k)
-        b[i] -= a[k][i] * b[k];
-      b[i] /= a[i][i];
-      w[i] = b[i];
-      sum += b[i];
+        b[i] -= r[i][k] * w[k];
+      w[i] = b[i] / r[i][i];
+      sum += w[i];
     }
     w[m] = 1 - sum;
     return true;
@@ -228,7 +222,8 @@ double reach(const Points& points, const Vector<N>& from, const Vector<N>& way,
 {
   Nearest<N, Points> nearest(points);
   double t = 1;
-  for (int cut = 0; cut < 12; ++cut)
+  double less = 1e-12;
+  for (int cut = 0; cut < 20; ++cut, less *= 4)
   {
     Vector<N> target, n;
     for (int k = 0; k < N; ++k)
@@ -249,11 +244,11 @@ double reach(const Points& points, const Vector<N>& from, const Vector<N>& way,
         });
     const double along = dot<N>(n, way);
     const double room = dot<N>(n, from) - support;
-    // Against the normal there is a last place; otherwise `from` is outside.
-    if (not(along < 0) or not(room > 0))
-      return 0;
-    // A little less each time, or round-off could hold the last place outside.
-    t = std::min(room / -along, t) * (1 - 1e-10);
+    // Where round-off hides the plane, try half the way.
+    const double next = along < 0 and room > 0 ? room / -along : 0.5 * t;
+    // A little less, and more each time, or round-off could hold the last place
+    // outside.
+    t = std::min(next, t) * (1 - less);
   }
   return 0;
 }

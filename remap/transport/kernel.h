@@ -23,9 +23,10 @@ template <int B>
 struct Block
 {
   Values<B> u;
-  const double* least = nullptr;  ///< range, or null
-  const double* most = nullptr;   ///< as least
-  const double* inflow = nullptr; ///< row of the first marker, or null
+  const double* least = nullptr;   ///< range, or null
+  const double* most = nullptr;    ///< as least
+  const double* inflow = nullptr;  ///< row of the first marker, or null
+  std::array<double, B> weights{}; ///< of a vector's components in its length
   std::span<const Boundary> kinds;
   std::span<Exchange> book; ///< one entry a component
 

@@ -41,7 +41,8 @@ struct NodalVolumes : ControlVolumes
     mesh = &of;
     const auto cells = static_cast<std::size_t>(of.num_cells());
     ControlVolumes::reserve(of.node_nodes(), of.node_nodes(), of.owned_nodes(),
-                            3 * cells, 2 * outer_facets(of), components);
+                            (masses ? 5 : 3) * cells,
+                            (masses ? 4 : 2) * outer_facets(of), components);
     if (not masses)
       return;
     flow.assign(std::size_t(flows) * cells, 0);
@@ -117,6 +118,7 @@ struct NodalVolumes : ControlVolumes
   }
 
   /// Make the pieces those of mass, and the volumes masses.
+  template <Geometry G>
   void exchange_masses(std::span<const std::int32_t> cells,
                        std::span<const std::uint8_t> moved,
                        std::span<const double> x, std::span<const double> y)
@@ -125,7 +127,7 @@ struct NodalVolumes : ControlVolumes
       volume[i] = next[i] = mass[i];
     drop_pieces();
     for (std::int32_t c : cells)
-      exchange_cell(c, moved, x, y);
+      exchange_cell<G>(c, moved, x, y);
     settle_pieces();
   }
 
@@ -227,26 +229,47 @@ private:
     pass(m > 0 ? i : -1, m > 0 ? -1 : i, std::abs(m), at, over, boundary);
   }
 
+  /// What a moved facet exchanges: the swept parts with the cell's density, and
+  /// what is left of its flow in its middle. A facet that turns has no flow,
+  /// but what it sweeps to either side is exchanged.
+  template <Geometry G, class Give>
+  static void exchange_facet(const Motion& m, double rho, double flow,
+                             const Give& give)
+  {
+    const SweptParts parts = swept_parts<G>(m);
+    for (int k = 0; k < 2; ++k)
+    {
+      give(rho * parts.v[k], parts.at[k]);
+      flow -= rho * parts.v[k];
+    }
+    give(flow, 0.25 * (m.p0 + m.q0 + m.p1 + m.q1));
+  }
+
+  template <Geometry G>
   void exchange_cell(std::int32_t c, std::span<const std::uint8_t> moved,
                      std::span<const double> x, std::span<const double> y)
   {
     const Triple& n = mesh->cell(c);
     const dual::Corners before = dual::corners(*mesh, c, x);
     const dual::Corners after = dual::corners(*mesh, c, y);
+    const double* out = &flow[std::size_t(flows) * c];
     for (int i = 0; i < 3; ++i)
     {
       const int j = (i + 1) % 3;
-      const Motion m = dual::facet(before, after, i);
-      const double* out = &flow[std::size_t(flows) * c];
-      give(n[i], n[j], out[i], 0.25 * (m.p0 + m.q0 + m.p1 + m.q1));
+      exchange_facet<G>(dual::facet(before, after, i), density[c], out[i],
+                        [&](double m, Point at) { give(n[i], n[j], m, at); });
       const std::int32_t f = mesh->cell_facets(c)[i];
       if (not mesh->on_boundary(f) or not(moved[n[i]] or moved[n[j]]))
         continue;
-      const Point a = middle(before.v[i], after.v[i]);
-      const Point b = middle(before.v[j], after.v[j]);
+      const Point m0 = middle(before.v[i], before.v[j]);
+      const Point m1 = middle(after.v[i], after.v[j]);
       const std::int32_t boundary = mesh->marker(f);
-      give_out(n[i], out[3 + 2 * i], 0.75 * a + 0.25 * b, f, boundary);
-      give_out(n[j], out[4 + 2 * i], 0.25 * a + 0.75 * b, f, boundary);
+      exchange_facet<G>({before.v[i], m0, after.v[i], m1}, density[c],
+                        out[3 + 2 * i], [&](double m, Point at)
+                        { give_out(n[i], m, at, f, boundary); });
+      exchange_facet<G>({m0, before.v[j], m1, after.v[j]}, density[c],
+                        out[4 + 2 * i], [&](double m, Point at)
+                        { give_out(n[j], m, at, f, boundary); });
     }
   }
 };

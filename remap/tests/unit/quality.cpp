@@ -96,7 +96,7 @@ TEST_CASE("optimise: gradient and Hessian agree with differences", "[quality]")
                                  c.b - x - Point{dx, dy});
     return sum;
   };
-  const smoother::Distortion d = smoother::distortion(cells, x);
+  const smoother::Distortion d = smoother::distortion_of_power(cells, x);
   const double h = 1e-4; // error h² of the central differences
   CHECK(d.f == Approx(f(0, 0)).epsilon(1e-14));
   CHECK(d.g.x == Approx((f(h, 0) - f(-h, 0)) / (2 * h)).epsilon(1e-6));

@@ -15,12 +15,12 @@ using meshes::Diagonal;
 
 namespace
 {
-constexpr int n = 14;
+constexpr int n = 10;
 
 /// What a run leaves, in global numbers.
 struct Result
 {
-  std::vector<double> x, cells, nodes;
+  std::vector<double> x, cells, points, nodes, velocity;
   Ledger ledger;
   int cycles = 0;
 };
@@ -31,18 +31,22 @@ struct Start
   Geometry geometry;
   meshes::Data data = meshes::rectangle(n, n, Diagonal::crossed);
   std::vector<double> x = meshes::shaken(data.x, 0.02, 7);
-  std::vector<double> cells, nodes;
+  std::vector<double> cells, points, nodes, velocity;
+  Scheme scheme;
   std::vector<Kind> kinds;
   std::vector<double> direction;
 
-  explicit Start(Geometry g) : geometry(g)
+  Start(Geometry g, Scheme s) : geometry(g), scheme(s)
   {
     std::mt19937 engine(8);
     std::uniform_real_distribution<double> draw(0.0, 1.0);
-    cells.resize(2 * data.cells.size() / 3);
+    cells.resize(6 * data.cells.size() / 3);
+    points.resize(3 * 4 * data.cells.size() / 3);
     nodes.resize(3 * data.x.size() / 2);
-    std::generate(cells.begin(), cells.end(), [&] { return draw(engine); });
-    std::generate(nodes.begin(), nodes.end(), [&] { return draw(engine); });
+    velocity.resize(2 * data.x.size() / 2);
+    for (auto* field : {&cells, &points, &nodes, &velocity})
+      std::generate(field->begin(), field->end(),
+                    [&] { return 0.1 + draw(engine); });
     for (std::size_t i = 0; i < data.x.size(); i += 2)
     {
       const Point p = {data.x[i], data.x[i + 1]};
@@ -64,14 +68,25 @@ Result smooth_and_remap(const Start& start, const ranks::Part& part,
   const Mesh mesh = part.mesh();
   Smoothing smoothing(
       mesh, {.geometry = start.geometry, .threshold = 0.75, .sweeps = 3}, host);
-  Remapper remapper(mesh, {.geometry = start.geometry,
-                           .max_loss = 0.2,
-                           .boundaries = std::vector(4, Boundary::free_surface),
-                           .cell_components = 2,
-                           .nodal_components = 3});
   Result out;
   out.x = ranks::Part::take(start.x, part.nodes, 2);
-  out.cells = ranks::Part::take(start.cells, part.cells, 2);
+  const PointMesh points(mesh, {{0, 1}, {1, 2}, {2, 0}}, part.data.x);
+  Remapper remapper(mesh, {.geometry = start.geometry,
+                           .scheme = start.scheme,
+                           .nodal_scheme = start.scheme,
+                           .max_loss = 0.2,
+                           .boundaries = std::vector(4, Boundary::free_surface),
+                           .points = &points,
+                           .cell_components = 5,
+                           .point_components = 4,
+                           .nodal_components = 3,
+                           .per_mass = true});
+  const auto all_cells = ranks::Part::take(start.cells, part.cells, 6);
+  std::vector<double> density;
+  for (std::size_t i = 0; i < all_cells.size(); ++i)
+    (i % 6 == 0 ? density : out.cells).push_back(all_cells[i]);
+  out.points = ranks::Part::take(start.points, part.cells, 12);
+  out.velocity = ranks::Part::take(start.velocity, part.nodes, 2);
   out.nodes = ranks::Part::take(start.nodes, part.nodes, 3);
   const auto spacing =
       facet_lengths(mesh, ranks::Part::take(start.data.x, part.nodes, 2));
@@ -95,10 +110,21 @@ Result smooth_and_remap(const Start& start, const ranks::Part& part,
     const Outcome smoothed = smoothing.smooth(
         to, flags, {.kinds = kinds, .direction = direction, .spacing = spacing},
         host);
-    const Field cells{.values = out.cells, .components = 2};
+    // A tensor over points, a vector per mass, and scalars that need a repair.
+    const std::vector<double> low(5, 0.1), high(5, 1.1);
+    const Field cells[] = {
+        {.values = density},
+        {.values = out.cells, .components = 5, .least = low, .most = high}};
+    const Field in_points{.values = out.points, .components = 4, .group = 4};
     const Field nodes{.values = out.nodes, .components = 3};
-    const Outcome carried =
-        remapper.remap(out.x, to, {&cells, 1}, {&nodes, 1}, host, out.ledger);
+    const Field velocity{.values = out.velocity, .components = 2, .group = 2};
+    const Outcome carried = remapper.remap(out.x, to,
+                                           {.cells = cells,
+                                            .points = {&in_points, 1},
+                                            .nodes = {&nodes, 1},
+                                            .per_mass = {&velocity, 1},
+                                            .density = 0},
+                                           host, out.ledger);
     if (smoothed != Outcome::ok or carried != Outcome::ok)
       out.cycles = -1000; // Catch's checks are not for threads
     out.x = to;
@@ -144,7 +170,11 @@ TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
   const int size = GENERATE(2, 3);
   const int how = GENERATE(0, 1, 2);
   INFO("size " << size << ", dealt " << how);
-  const Start start(geometry);
+  const Scheme scheme =
+      GENERATE(Scheme(scheme::LimitedLinear{}), Scheme(scheme::SmoothExtrema{}),
+               Scheme(scheme::VanLeer{}), Scheme(scheme::Linear{}));
+  const Start start(geometry, scheme);
+  INFO(name_of(scheme));
   ranks::World one(start.data, deal(start.data, 1, 0), 1);
   Result alone;
   one.run([&](int, const ranks::Part& p, const Host& host)
@@ -161,7 +191,9 @@ TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
   };
   const ranks::Part& whole = one.parts[0];
   const auto x = unshuffled(alone.x, whole.nodes, 2);
-  const auto cells = unshuffled(alone.cells, whole.cells, 2);
+  const auto cells = unshuffled(alone.cells, whole.cells, 5);
+  const auto points = unshuffled(alone.points, whole.cells, 12);
+  const auto velocity = unshuffled(alone.velocity, whole.nodes, 2);
   const auto nodes = unshuffled(alone.nodes, whole.nodes, 3);
   // It did something.
   REQUIRE(gap(start.x, alone.x, whole.nodes, 2) > 1e-3);
@@ -177,7 +209,9 @@ TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
     // Sums around a node run in global order: not even round-off differs.
     CHECK(gap(x, results[r].x, p.nodes, 2) == 0);
     // Ghosts too are as their owners have them.
-    CHECK(gap(cells, results[r].cells, p.cells, 2) < 1e-13);
+    CHECK(gap(cells, results[r].cells, p.cells, 5) < 1e-13);
+    CHECK(gap(points, results[r].points, p.cells, 12) < 1e-13);
+    CHECK(gap(velocity, results[r].velocity, p.nodes, 2) < 1e-13);
     CHECK(gap(nodes, results[r].nodes, p.nodes, 3) < 1e-13);
     for (int k = 0; k < 2; ++k)
       CHECK(

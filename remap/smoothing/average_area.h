@@ -10,9 +10,9 @@
 
 namespace remap::smoother
 {
-struct Average
+struct AverageArea
 {
-  static constexpr std::string_view name = "average";
+  static constexpr std::string_view name = "average_area";
 
   static Point propose(const Patch& patch)
   {
