@@ -70,22 +70,36 @@ void limited_linear(benchmark::State& state)
   remap_cells(state, scheme::LimitedLinear{});
 }
 
-/// Only a part of the nodes moves: cost follows the patches.
-void one_per_cent(benchmark::State& state)
+/// Only a patch in the middle moves, so many cells in a thousand: cost follows
+/// the patch.
+void local(benchmark::State& state)
 {
   const Bench& b = Bench::get();
   Remapper remapper(b.mesh, {.max_loss = 0.999,
                              .boundaries = std::vector(4, Boundary::closed)});
+  const auto side = std::min(
+      n - 1, static_cast<int>(std::lround(
+                 n * std::sqrt(static_cast<double>(state.range(0)) / 1000))));
   auto to = b.data.x;
-  for (std::size_t k = 0; k < to.size() / 200; ++k)
-    to[to.size() / 4 + k] = b.to[to.size() / 4 + k];
+  for (int j = (n - side) / 2 + 1; j <= (n + side) / 2; ++j)
+    for (int i = (n - side) / 2 + 1; i <= (n + side) / 2; ++i)
+      for (int k = 0; k < 2; ++k)
+      {
+        const auto at = static_cast<std::size_t>(2 * (j * (n + 1) + i) + k);
+        to[at] = b.to[at];
+      }
   std::vector<double> u(b.mesh.num_cells(), 1.0);
   const Field field{.values = u};
   Ledger ledger;
+  bool there = true;
   for (auto _ : state)
-    if (remapper.remap(b.data.x, to, {&field, 1}, {}, {}, ledger)
+  {
+    if (remapper.remap(there ? b.data.x : to, there ? to : b.data.x,
+                       {&field, 1}, {}, {}, ledger)
         != Outcome::ok)
       state.SkipWithError("remap failed");
+    there = not there;
+  }
   state.counters["touched"] = remapper.report().touched_cells;
 }
 
@@ -157,7 +171,8 @@ void bandwidth(benchmark::State& state)
 BENCHMARK(bandwidth)->Unit(benchmark::kMillisecond);
 BENCHMARK(donor_cell)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
-BENCHMARK(one_per_cent)->Unit(benchmark::kMillisecond);
+BENCHMARK(local)->Arg(1)->Arg(10)->Arg(100)->Arg(1000)->Unit(
+    benchmark::kMillisecond);
 BENCHMARK(nodal)->Unit(benchmark::kMillisecond);
 BENCHMARK(smooth<smoother::AverageArea>)->Unit(benchmark::kMillisecond);
 BENCHMARK(smooth<smoother::Optimise>)->Unit(benchmark::kMillisecond);

@@ -18,6 +18,7 @@ import common  # noqa: E402
 SQUARES = [16, 23, 32, 45, 64]  # along a side; each is two triangles
 FUNCTIONS = ["sine", "peak", "shock"]
 PATHS = ["tensor", "smooth", "random"]
+COLOURS = [*common.COLOURS, "#888888"]
 COLUMNS = [
     "scheme",
     "function",
@@ -83,7 +84,7 @@ def draw(rows):
                 ax.plot(
                     [float(row["seconds"]) for row in chosen],
                     [float(row["error"]) for row in chosen],
-                    color=common.COLOURS[k % len(common.COLOURS)],
+                    color=COLOURS[k % len(COLOURS)],
                     marker=common.MARKERS[k % len(common.MARKERS)],
                     markersize=4.5,
                     linewidth=1.2,
