@@ -252,21 +252,30 @@ void Remapper::place(double at)
 }
 
 /// Divide what is left of the way until no volume loses too much in the next
-/// sub-cycle.
+/// sub-cycle. A volume that grows from nearly nothing needs short steps only at
+/// first: the last step's loss tells how many of its kind are left.
 ///
 /// @param[in]     at   part of the way done
 /// @param[in,out] left equal sub-cycles for the rest
+/// @param[in,out] loss of the last sub-cycle, and of this one
 template <Geometry G>
-Outcome Remapper::choose_cycle(double at, int& left, const Host& host)
+Outcome Remapper::choose_cycle(double at, double& left, double& loss,
+                               const Host& host)
 {
   // Round-off of a loss must not decide on the number of sub-cycles: ranks cut
   // differently would disagree with themselves.
   constexpr double slack = 1e-9;
+  constexpr double shortest = 1e13;
+  const auto needed = [this](double steps, double lost)
+  {
+    return std::max(1.0, std::ceil(steps * lost / _options.max_loss - slack));
+  };
+  left = needed(left, loss);
   while (true)
   {
     place(left == 1 ? 1 : at + (1 - at) / left);
     sweep<G>();
-    double loss = _cells.largest_loss();
+    loss = _cells.largest_loss();
     if (_fine)
       loss = std::max(loss, _points->volumes.largest_loss());
     if (_dual)
@@ -276,10 +285,10 @@ Outcome Remapper::choose_cycle(double at, int& left, const Host& host)
       _report.loss = loss;
     if (loss <= (1 + slack) * _options.max_loss)
       return Outcome::ok;
-    const double needed = left * loss / _options.max_loss - slack;
-    if (not(_report.cycles + needed <= _options.max_cycles))
+    const double steps = std::max(needed(left, loss), left + 1.0);
+    if (_report.cycles + 1 >= _options.max_cycles or not(steps < shortest))
       return Outcome::too_many_cycles;
-    left = std::max(left + 1, static_cast<int>(std::ceil(needed)));
+    left = steps;
   }
 }
 
@@ -434,12 +443,13 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
     return Outcome::inverted_target;
 
   double at = 0;
-  int left = 1;
+  double left = 1, loss = 0;
   while (at < 1)
   {
     if (_report.cycles > 0)
       measure<G>(false, host);
-    if (const Outcome o = choose_cycle<G>(at, left, host); o != Outcome::ok)
+    if (const Outcome o = choose_cycle<G>(at, left, loss, host);
+        o != Outcome::ok)
       return o;
     // In one cycle the volumes at the end are known and good.
     if (_report.cycles > 0 or left > 1)
@@ -449,7 +459,7 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
         return Outcome::inverted_path;
     }
     at = left == 1 ? 1 : at + (1 - at) / left;
-    --left;
+    left = std::max(left - 1, 1.0);
     carry<G>(fields, host);
     ++_report.cycles;
     for (std::int32_t i : _moved_nodes)

@@ -137,7 +137,7 @@ private:
   template <Geometry G>
   void sweep();
   template <Geometry G>
-  Outcome choose_cycle(double at, int& left, const Host& host);
+  Outcome choose_cycle(double at, double& left, double& loss, const Host& host);
   void place(double at);
   template <Geometry G>
   void carry(const Fields& fields, const Host& host);

@@ -54,8 +54,8 @@ struct Way
     {
       const int j = (i + 1) % 3;
       const SweptParts s = swept_parts<G>({from[i], from[j], m[i], m[j]});
-      for (int k = 0; k < s.count; ++k)
-        lost += std::max(s.part[k].v, 0.0);
+      for (double v : s.v)
+        lost += std::max(v, 0.0);
     }
     return lost / triangle<G>(from[0], from[1], from[2]).v;
   }

@@ -58,7 +58,7 @@ struct ControlVolumes
   std::vector<Point> centroid;      ///< now
   std::vector<double> leaving;      ///< sum of pieces out of a volume
   std::vector<Point> remains;       ///< centroid of what stays, from `centroid`
-  std::vector<double> fit;          ///< inverse least-squares matrix, (num, 3)
+  std::vector<double> fit;          ///< least squares, (num, 4): see gradient.h
   Pieces inner;                     ///< between two volumes
   Pieces outer;                     ///< with one end outside
   std::vector<std::int32_t> marker; ///< of the boundary facet of outer pieces
@@ -101,7 +101,7 @@ struct ControlVolumes
     centroid.assign(num, {});
     leaving.assign(num, 0);
     remains.assign(num, {});
-    fit.assign(std::size_t(3) * num, 0);
+    fit.assign(std::size_t(4) * num, 0);
     mark.assign(num, 0);
     // One more: a part that is not there is written and not counted.
     inner.reserve(2 * num_inner + 2);
@@ -290,7 +290,7 @@ struct ControlVolumes
     {
       const double rest = volume[i] - leaving[i];
       // Of a volume that leaves its place wholly nothing remains.
-      remains[i] = (rest > 0 ? 1 / rest : 0.0) * remains[i];
+      remains[i] = (rest > 1e-12 * volume[i] ? 1 / rest : 0.0) * remains[i];
     }
   }
 
