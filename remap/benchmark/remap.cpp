@@ -5,7 +5,6 @@
 // memory bandwidth of the same machine in the same run.
 
 #include "remap/remap.h"
-#include "remap/smoothing/smooth.h"
 #include "remap/tests/meshes.h"
 
 #include <benchmark/benchmark.h>
@@ -125,32 +124,6 @@ void nodal(benchmark::State& state)
       b.mesh.num_nodes(), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// One sweep over all inner nodes.
-template <class S>
-void smooth(benchmark::State& state)
-{
-  const Bench& b = Bench::get();
-  Smoothing smoothing(b.mesh, {.smoother = S{}, .sweeps = 1}, {});
-  std::vector<Kind> kinds;
-  for (std::size_t i = 0; i < b.data.x.size(); i += 2)
-    kinds.push_back(meshes::on_outline({b.data.x[i], b.data.x[i + 1]})
-                        ? Kind::fixed
-                        : Kind::free);
-  const std::vector<std::uint8_t> flags(kinds.size(), 1);
-  auto x = b.to;
-  for (auto _ : state)
-  {
-    state.PauseTiming();
-    x = b.to;
-    state.ResumeTiming();
-    if (smoothing.smooth(x, flags, {.kinds = kinds}, {}) != Outcome::ok)
-      state.SkipWithError("smoothing failed");
-  }
-  state.counters["nodes/s"] =
-      benchmark::Counter(static_cast<double>(kinds.size()),
-                         benchmark::Counter::kIsIterationInvariantRate);
-}
-
 /// a = b + s c over arrays far larger than the caches.
 void bandwidth(benchmark::State& state)
 {
@@ -174,6 +147,4 @@ BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(local)->Arg(1)->Arg(10)->Arg(100)->Arg(1000)->Unit(
     benchmark::kMillisecond);
 BENCHMARK(nodal)->Unit(benchmark::kMillisecond);
-BENCHMARK(smooth<smoother::AverageArea>)->Unit(benchmark::kMillisecond);
-BENCHMARK(smooth<smoother::Optimise>)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();

@@ -13,16 +13,20 @@
 
 namespace remap::quality
 {
+/// Radius ratio from twice the area and the lengths of the edges.
+inline double radius_ratio(double area2, double la, double lb, double lc)
+{
+  const double q = 4 * area2 * area2 / ((la + lb + lc) * (la * lb * lc));
+  return area2 > 0 ? q : (area2 < 0 ? -q : 0.0);
+}
+
 /// Radius ratio 2 r_in / R_circ = 16 A² / ((a + b + c) a b c), with the sign of
 /// the area; 1 for an equilateral triangle.
 inline double radius_ratio(Point a, Point b, Point c)
 {
-  const double area2 = twice_area(a, b, c);
-  const double la = std::sqrt(dot(c - b, c - b));
-  const double lb = std::sqrt(dot(a - c, a - c));
-  const double lc = std::sqrt(dot(b - a, b - a));
-  const double q = 4 * area2 * area2 / ((la + lb + lc) * la * lb * lc);
-  return area2 > 0 ? q : (area2 < 0 ? -q : 0.0);
+  return radius_ratio(twice_area(a, b, c), std::sqrt(dot(c - b, c - b)),
+                      std::sqrt(dot(a - c, a - c)),
+                      std::sqrt(dot(b - a, b - a)));
 }
 
 /// Shape of a target triangle with edges u = b − a and v = c − a, T = A W⁻¹, W

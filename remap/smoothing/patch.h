@@ -67,12 +67,24 @@ enum class Measure
 inline double worst(std::span<const PatchCell> cells, Point x, Measure measure)
 {
   double q = std::numeric_limits<double>::infinity();
+  // A cell's second edge at the node is the next one's first.
+  Point last = x;
+  double length = 0;
   for (const PatchCell& c : cells)
   {
+    double one = 0;
+    if (measure == Measure::shape)
+      one = quality::shape(c.target, x, c.a, c.b);
+    else
+    {
+      const double first =
+          c.a == last ? length : std::sqrt(dot(c.a - x, c.a - x));
+      last = c.b;
+      length = std::sqrt(dot(c.b - x, c.b - x));
+      one = quality::radius_ratio(twice_area(x, c.a, c.b), first, length,
+                                  std::sqrt(dot(c.b - c.a, c.b - c.a)));
+    }
     // NaN must not pass: fmin would drop it.
-    const double one = measure == Measure::radius_ratio
-                           ? quality::radius_ratio(x, c.a, c.b)
-                           : quality::shape(c.target, x, c.a, c.b);
     if (not(one > 0))
       return one;
     q = std::min(q, one);

@@ -54,8 +54,7 @@ struct Way
     {
       const int j = (i + 1) % 3;
       const SweptParts s = swept_parts<G>({from[i], from[j], m[i], m[j]});
-      for (double v : s.v)
-        lost += std::max(v, 0.0);
+      lost += std::max(s.v[0], 0.0) + std::max(s.v[1], 0.0);
     }
     return lost / triangle<G>(from[0], from[1], from[2]).v;
   }

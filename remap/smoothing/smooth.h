@@ -141,6 +141,8 @@ private:
   [[nodiscard]] bool no_worse(Point to, double floor) const;
   Point come_back(std::int32_t node, std::span<double> x, const Guide& guide);
   void put(std::int32_t node, std::span<double> x, Point to);
+  bool untangle_once(std::span<double> x, const Constraints& c, bool all,
+                     const Host& host);
   bool untangle(std::span<double> x, const Constraints& c, const Host& host);
   template <class S>
   void sweeps(std::span<double> x, std::span<const std::uint8_t> flags,

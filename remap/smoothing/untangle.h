@@ -2,7 +2,9 @@
 //
 // METHOD 4.1: where an inverted cell is at a node, the node goes where the
 // smallest area of its patch is largest: a linear programme, as every area is
-// linear in the node's place. Positive there if any place is good.
+// linear in the node's place. Positive there if any place is good. Where no
+// place is, since neighbours are in the way, all go down a distortion whose
+// barrier has been softened, so that it is finite for inverted cells too.
 #pragma once
 
 #include "remap/smoothing/patch.h"
@@ -76,5 +78,64 @@ inline Point untangled(const Patch& patch)
       }
     }
   return best;
+}
+
+/// One Newton step from the patch's place down Σ N/h(D), h = (D + √(D² +
+/// 4δ²))/2 in the place of D (see `distortion`), δ a part of the mean area; the
+/// Hessian without what may be negative, halved until the sum falls.
+/// @source Escobar et al. (2003), simultaneous untangling and smoothing
+inline Point softened(const Patch& patch, double part)
+{
+  const double delta = part * std::abs(mean_area(patch));
+  if (not(delta > 0))
+    return patch.x;
+  const auto barrier = [delta](double d)
+  { return 0.5 * (d + std::sqrt(d * d + 4 * delta * delta)); };
+  const auto value = [&](Point x)
+  {
+    double f = 0;
+    for (const PatchCell& c : patch.cells)
+      f += quality::squares(c.target, c.a - x, c.b - x)
+           / barrier(twice_area(x, c.a, c.b));
+    return f;
+  };
+  const Point x = patch.x;
+  Point g{};
+  double xx = 0, xy = 0, yy = 0;
+  for (const PatchCell& c : patch.cells)
+  {
+    const quality::Target& w = c.target;
+    const double d = twice_area(x, c.a, c.b);
+    const double h = barrier(d);
+    const double slope = h / std::sqrt(d * d + 4 * delta * delta);
+    const Point p = c.a - x, m = c.b - x - w.r * p;
+    const double n = quality::squares(w, p, c.b - x);
+    const double rest = w.rest * (1 - w.r);
+    const Point gn = (-2 / h) * (w.own * p + rest * m);
+    const Point gh = (slope / h) * Point{c.a.y - c.b.y, c.b.x - c.a.x};
+    const double kappa = 2 / h * (w.own + rest * (1 - w.r));
+    const double two = 2 * n / h;
+    g = g + gn - (n / h) * gh;
+    xx += kappa + two * gh.x * gh.x;
+    yy += kappa + two * gh.y * gh.y;
+    xy += two * gh.x * gh.y;
+  }
+  Point step{};
+  if (patch.along)
+  {
+    const Point t = *patch.along;
+    const double curve = xx * t.x * t.x + 2 * xy * t.x * t.y + yy * t.y * t.y;
+    step = (-dot(g, t) / curve) * t;
+  }
+  else
+  {
+    const double det = xx * yy - xy * xy;
+    step = {(xy * g.y - yy * g.x) / det, (xy * g.x - xx * g.y) / det};
+  }
+  const double now = value(x);
+  for (double size : {1.0, 0.5, 0.25, 0.125})
+    if (value(x + size * step) < now)
+      return x + size * step;
+  return x;
 }
 } // namespace remap

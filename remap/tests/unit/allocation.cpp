@@ -3,6 +3,7 @@
 // After set-up and a first call nothing is allocated.
 
 #include "remap/remap.h"
+#include "remap/smoothing/boundary_curve.h"
 #include "remap/smoothing/smooth.h"
 #include "remap/tests/meshes.h"
 
@@ -53,18 +54,35 @@ TEST_CASE("remap and smoothing allocate nothing after set-up", "[allocation]")
   const Host host;
   std::vector<Kind> kinds;
   for (std::size_t i = 0; i < data.x.size(); i += 2)
-    kinds.push_back(meshes::on_outline({data.x[i], data.x[i + 1]})
-                        ? Kind::fixed
-                        : Kind::free);
+  {
+    const Point p = {data.x[i], data.x[i + 1]};
+    const bool side = p.x == 0 or p.x == 1;
+    kinds.push_back(p.y == 1 and not side   ? Kind::surface
+                    : p.y == 0 and not side ? Kind::curve
+                    : meshes::on_outline(p) ? Kind::fixed
+                                            : Kind::free);
+  }
   std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
-  const Constraints constraints{.kinds = kinds};
+  const auto spacing = facet_lengths(mesh, data.x);
+  BoundaryCurve curve(mesh);
+  const Constraints constraints{
+      .kinds = kinds, .guide = &curve, .spacing = spacing};
+  // The start is a tangle, and its surface a zigzag: nothing is left out.
   const auto from = meshes::shaken(data.x, 0.015, 3);
+  auto tangled = meshes::shaken(data.x, 0.04, 3);
+  for (std::int32_t i = 1; i < 20; ++i)
+    tangled[2 * (21 * 20 + i) + 1] += i % 2 == 0 ? 0.005 : -0.005;
   auto to = from;
   const auto once = [&]
   {
-    to = from; // no allocation: the sizes agree
+    to = tangled; // no allocation: the sizes agree
+    curve.follow(to, kinds, host);
     smoothing.flag(to, {}, flags, host);
     std::fill(flags.begin(), flags.end(), std::uint8_t(1));
+    if (smoothing.smooth(to, flags, constraints, host) != Outcome::ok
+        or smoothing.report().untangled == 0)
+      return false;
+    to = from;
     return smoothing.smooth(to, flags, constraints, host) == Outcome::ok
            and remapper.remap(from, to, {&cells, 1}, {&nodes, 1}, host, ledger)
                    == Outcome::ok;

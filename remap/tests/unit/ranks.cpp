@@ -4,9 +4,11 @@
 
 #include "remap/tests/ranks.h"
 #include "remap/remap.h"
+#include "remap/smoothing/boundary_curve.h"
 #include "remap/smoothing/smooth.h"
 
 #include <catch2/catch_approx.hpp>
+#include <catch2/catch_template_test_macros.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
 
@@ -221,5 +223,73 @@ TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
       CHECK(
           std::abs(net(results[r].ledger.nodes[k]) - net(alone.ledger.nodes[k]))
           < 1e-13);
+  }
+}
+
+TEMPLATE_LIST_TEST_CASE("ranks: every smoother and kind of node, from a tangle",
+                        "[ranks]", Smoothers)
+{
+  // A bulging top is a curve, the left side slides, the rest stays; inner nodes
+  // are shaken by a cell's breadth, so that cells are inverted.
+  const meshes::Data data = meshes::rectangle(n, n, Diagonal::crossed);
+  auto x = meshes::shaken(data.x, 1.0 / n, 12);
+  std::vector<Kind> kinds;
+  std::vector<double> direction;
+  for (std::size_t i = 0; i < x.size(); i += 2)
+  {
+    const Point p = {data.x[i], data.x[i + 1]};
+    x[i + 1] *= 1 + 0.2 * std::sin(std::numbers::pi * p.x);
+    const bool corner = (p.x == 0 or p.x == 1) and (p.y == 0 or p.y == 1);
+    kinds.push_back(not meshes::on_outline(p) ? Kind::free
+                    : p.y == 1 and not corner ? Kind::curve
+                    : p.x == 0 and not corner ? Kind::slide
+                                              : Kind::fixed);
+    direction.insert(direction.end(), {0.0, 1.0});
+  }
+  const auto run = [&](const ranks::Part& part, const Host& host)
+  {
+    const Mesh mesh = part.mesh();
+    auto at = ranks::Part::take(x, part.nodes, 2);
+    const auto along = ranks::Part::take(direction, part.nodes, 2);
+    std::vector<Kind> local;
+    for (std::int64_t i : part.nodes)
+      local.push_back(kinds[i]);
+    BoundaryCurve curve(mesh);
+    curve.follow(at, local, host);
+    Smoothing smoothing(mesh,
+                        {.smoother = TestType{},
+                         .threshold = 0.2,
+                         .sweeps = 4,
+                         .relaxation = 1.3},
+                        host);
+    const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
+    const Outcome o = smoothing.smooth(
+        at, flags, {.kinds = local, .direction = along, .guide = &curve}, host);
+    // Catch's checks are not for threads.
+    if (o != Outcome::ok or not(smoothing.report().worst_before < 0)
+        or not(smoothing.report().worst_after > 0.01))
+      at.clear();
+    return at;
+  };
+  ranks::World one(data, deal(data, 1, 0), 1);
+  std::vector<double> alone(x.size());
+  one.run(
+      [&](int, const ranks::Part& p, const Host& host)
+      {
+        const auto at = run(p, host);
+        for (std::size_t i = 0; i < at.size(); ++i)
+          alone[2 * p.nodes[i / 2] + i % 2] = at[i];
+      });
+  REQUIRE(gap(x, alone, one.parts[0].nodes, 2) > 1e-3);
+  const int size = GENERATE(2, 3);
+  const int how = GENERATE(0, 2);
+  ranks::World world(data, deal(data, size, how), size);
+  std::vector<std::vector<double>> at(size);
+  world.run([&](int r, const ranks::Part& p, const Host& host)
+            { at[r] = run(p, host); });
+  for (int r = 0; r < size; ++r)
+  {
+    REQUIRE(not at[r].empty());
+    CHECK(gap(alone, at[r], world.parts[r].nodes, 2) == 0);
   }
 }

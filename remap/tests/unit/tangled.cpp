@@ -121,6 +121,47 @@ TEST_CASE("a tangle: plain averaging leaves inverted cells, ours none",
   CHECK(worst(mesh, x) > 0.5 * worst(mesh, good));
 }
 
+TEST_CASE("a tangle: node by node it may be for ever, ours is out",
+          "[smoothing][limits]")
+{
+  const meshes::Data data = meshes::rectangle(40, 40, Diagonal::crossed);
+  const Mesh mesh = data.mesh();
+  const auto kinds = inner_free(mesh);
+  const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
+  int stuck = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    INFO("seed " << seed);
+    const auto start = meshes::shaken(data.x, 1.0 / 40, seed);
+    // The naive way: to the largest smallest area, and nothing else.
+    auto naive = start;
+    for (int pass = 0; pass < 100 and worst(mesh, naive) <= 0; ++pass)
+      for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
+      {
+        std::vector<PatchCell> cells;
+        for (std::int32_t c : mesh.node_cells()[i])
+        {
+          const Triple& n = mesh.cell(c);
+          const int v = n[0] == i ? 0 : (n[1] == i ? 1 : 2);
+          cells.push_back({point(naive, n[(v + 1) % 3]),
+                           point(naive, n[(v + 2) % 3]), quality::equilateral});
+        }
+        if (kinds[i] == Kind::fixed
+            or smallest_area(cells, point(naive, i)) > 0)
+          continue;
+        const Point to = untangled({point(naive, i), cells, {}});
+        naive[2 * i] = to.x, naive[2 * i + 1] = to.y;
+      }
+    stuck += worst(mesh, naive) <= 0;
+
+    auto x = start;
+    Smoothing smoothing(mesh, {.sweeps = 30}, {});
+    REQUIRE(smoothing.smooth(x, flags, {.kinds = kinds}, {}) == Outcome::ok);
+    CHECK(worst(mesh, x) > 0.5);
+  }
+  CHECK(stuck > 0);
+}
+
 TEST_CASE("untangled: the place of the largest smallest area, by hand",
           "[smoothing][limits]")
 {
