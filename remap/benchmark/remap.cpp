@@ -29,13 +29,15 @@ struct Bench
   }
 };
 
-/// Remap `components` numbers a cell; max_loss 0.999 lets it go in one cycle,
-/// as the peers do.
-void remap_cells(benchmark::State& state, const Scheme& scheme)
+/// Remap `components` numbers a cell, over swept regions with the fewest
+/// sub-cycles that keep the bounds, or over the overlay.
+void remap_cells(benchmark::State& state, const Scheme& scheme,
+                 Method method = Method::swept)
 {
   const Bench& b = Bench::get();
   const auto components = static_cast<int>(state.range(0));
-  Remapper remapper(b.mesh, {.scheme = scheme,
+  Remapper remapper(b.mesh, {.method = method,
+                             .scheme = scheme,
                              .max_loss = 0.999,
                              .boundaries = std::vector(4, Boundary::closed),
                              .cell_components = components});
@@ -67,6 +69,15 @@ void donor_cell(benchmark::State& state)
 void limited_linear(benchmark::State& state)
 {
   remap_cells(state, scheme::LimitedLinear{});
+}
+
+void overlay_donor_cell(benchmark::State& state)
+{
+  remap_cells(state, scheme::DonorCell{}, Method::overlay);
+}
+void overlay_limited_linear(benchmark::State& state)
+{
+  remap_cells(state, scheme::LimitedLinear{}, Method::overlay);
 }
 
 /// Only a patch in the middle moves, so many cells in a thousand: cost follows
@@ -144,6 +155,8 @@ void bandwidth(benchmark::State& state)
 BENCHMARK(bandwidth)->Unit(benchmark::kMillisecond);
 BENCHMARK(donor_cell)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+BENCHMARK(overlay_donor_cell)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(overlay_limited_linear)->Arg(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(local)->Arg(1)->Arg(10)->Arg(100)->Arg(1000)->Unit(
     benchmark::kMillisecond);
 BENCHMARK(nodal)->Unit(benchmark::kMillisecond);
