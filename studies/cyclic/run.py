@@ -105,7 +105,8 @@ def draw(rows):
                 ax.set_ylabel("L1 error after 80 remaps, relative")
             if i == 2:
                 ax.set_xlabel("processor time of the remaps [s]")
-    axes[0][0].legend(fontsize=7.5)
+    lines = axes[0][0].get_legend_handles_labels()
+    fig.legend(*lines, loc="outside lower center", ncols=5, fontsize=9)
     common.save(fig, HERE)
 
 

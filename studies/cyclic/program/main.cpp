@@ -42,7 +42,8 @@ void cyclic_cases(const std::string& name, const std::string& method,
   for (const auto function : cyclic::functions)
     for (const auto path : cyclic::paths)
     {
-      const Options options = {.scheme = *find<Schemes>(name),
+      const Options options = {.method = *method_named(method),
+                               .scheme = *find<Schemes>(name),
                                .max_loss = 0.999};
       const bool range = name == scheme::SmoothExtrema::name;
       // The fastest of a few: small meshes are over in milliseconds.
