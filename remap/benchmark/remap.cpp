@@ -29,13 +29,15 @@ struct Bench
   }
 };
 
-/// Remap `components` numbers a cell; max_loss 0.999 lets it go in one cycle,
-/// as the peers do.
-void remap_cells(benchmark::State& state, const Scheme& scheme)
+/// Remap `components` numbers a cell, over swept regions with the fewest
+/// sub-cycles that keep the bounds, or over the overlay.
+void remap_cells(benchmark::State& state, const Scheme& scheme,
+                 Method method = Method::swept)
 {
   const Bench& b = Bench::get();
   const auto components = static_cast<int>(state.range(0));
-  Remapper remapper(b.mesh, {.scheme = scheme,
+  Remapper remapper(b.mesh, {.method = method,
+                             .scheme = scheme,
                              .max_loss = 0.999,
                              .boundaries = std::vector(4, Boundary::closed),
                              .cell_components = components});
@@ -69,22 +71,45 @@ void limited_linear(benchmark::State& state)
   remap_cells(state, scheme::LimitedLinear{});
 }
 
-/// Only a part of the nodes moves: cost follows the patches.
-void one_per_cent(benchmark::State& state)
+void overlay_donor_cell(benchmark::State& state)
+{
+  remap_cells(state, scheme::DonorCell{}, Method::overlay);
+}
+void overlay_limited_linear(benchmark::State& state)
+{
+  remap_cells(state, scheme::LimitedLinear{}, Method::overlay);
+}
+
+/// Only a patch in the middle moves, so many cells in a thousand: cost follows
+/// the patch.
+void local(benchmark::State& state)
 {
   const Bench& b = Bench::get();
   Remapper remapper(b.mesh, {.max_loss = 0.999,
                              .boundaries = std::vector(4, Boundary::closed)});
+  const auto side = std::min(
+      n - 1, static_cast<int>(std::lround(
+                 n * std::sqrt(static_cast<double>(state.range(0)) / 1000))));
   auto to = b.data.x;
-  for (std::size_t k = 0; k < to.size() / 200; ++k)
-    to[to.size() / 4 + k] = b.to[to.size() / 4 + k];
+  for (int j = (n - side) / 2 + 1; j <= (n + side) / 2; ++j)
+    for (int i = (n - side) / 2 + 1; i <= (n + side) / 2; ++i)
+      for (int k = 0; k < 2; ++k)
+      {
+        const auto at = static_cast<std::size_t>(2 * (j * (n + 1) + i) + k);
+        to[at] = b.to[at];
+      }
   std::vector<double> u(b.mesh.num_cells(), 1.0);
   const Field field{.values = u};
   Ledger ledger;
+  bool there = true;
   for (auto _ : state)
-    if (remapper.remap(b.data.x, to, {&field, 1}, {}, {}, ledger)
+  {
+    if (remapper.remap(there ? b.data.x : to, there ? to : b.data.x,
+                       {&field, 1}, {}, {}, ledger)
         != Outcome::ok)
       state.SkipWithError("remap failed");
+    there = not there;
+  }
   state.counters["touched"] = remapper.report().touched_cells;
 }
 
@@ -130,6 +155,9 @@ void bandwidth(benchmark::State& state)
 BENCHMARK(bandwidth)->Unit(benchmark::kMillisecond);
 BENCHMARK(donor_cell)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
-BENCHMARK(one_per_cent)->Unit(benchmark::kMillisecond);
+BENCHMARK(overlay_donor_cell)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(overlay_limited_linear)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(local)->Arg(1)->Arg(10)->Arg(100)->Arg(1000)->Unit(
+    benchmark::kMillisecond);
 BENCHMARK(nodal)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();

@@ -18,8 +18,10 @@ import common  # noqa: E402
 SQUARES = [16, 23, 32, 45, 64]  # along a side; each is two triangles
 FUNCTIONS = ["sine", "peak", "shock"]
 PATHS = ["tensor", "smooth", "random"]
+COLOURS = [*common.COLOURS, "#888888", common.COLOURS[1]]
 COLUMNS = [
     "scheme",
+    "method",
     "function",
     "path",
     "squares along a side",
@@ -68,7 +70,7 @@ def scheme_names(program):
 
 
 def draw(rows):
-    schemes = list(dict.fromkeys(row["scheme"] for row in rows))
+    schemes = list(dict.fromkeys((row["scheme"], row["method"]) for row in rows))
     fig, axes = common.figure(3, width=12, height=11, rows=3)
     for i, function in enumerate(FUNCTIONS):
         for j, path in enumerate(PATHS):
@@ -77,17 +79,18 @@ def draw(rows):
                 chosen = [
                     row
                     for row in rows
-                    if (row["scheme"], row["function"], row["path"])
-                    == (scheme, function, path)
+                    if (row["scheme"], row["method"]) == scheme
+                    and (row["function"], row["path"]) == (function, path)
                 ]
                 ax.plot(
                     [float(row["seconds"]) for row in chosen],
                     [float(row["error"]) for row in chosen],
-                    color=common.COLOURS[k % len(common.COLOURS)],
+                    color=COLOURS[k % len(COLOURS)],
                     marker=common.MARKERS[k % len(common.MARKERS)],
                     markersize=4.5,
                     linewidth=1.2,
-                    label=scheme.replace("_", " "),
+                    linestyle="--" if scheme[1] == "overlay" else "-",
+                    label=", ".join(scheme).replace("_", " ").replace(", swept", ""),
                 )
             ax.axhline(
                 PORTAGE[function][j],
@@ -102,7 +105,8 @@ def draw(rows):
                 ax.set_ylabel("L1 error after 80 remaps, relative")
             if i == 2:
                 ax.set_xlabel("processor time of the remaps [s]")
-    axes[0][0].legend(fontsize=7.5)
+    lines = axes[0][0].get_legend_handles_labels()
+    fig.legend(*lines, loc="outside lower center", ncols=5, fontsize=9)
     common.save(fig, HERE)
 
 
@@ -111,9 +115,11 @@ def main():
         return draw(common.read_table(HERE))
     remap_cases = program()
     rows = []
-    for scheme in scheme_names(remap_cases):
+    both = [(scheme, "swept") for scheme in scheme_names(remap_cases)]
+    for scheme, method in [*both, ("limited_linear", "overlay")]:
         for n in SQUARES:
-            rows += cases([remap_cases, "cyclic", scheme, str(n)], COLUMNS)
+            words = [remap_cases, "cyclic", scheme, method, str(n)]
+            rows += cases(words, COLUMNS)
     common.write_table(HERE, rows)
     draw(rows)
 

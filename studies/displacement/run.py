@@ -17,9 +17,14 @@ cyclic = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(cyclic)
 
 SCHEMES = ["donor_cell", "limited_linear", "linear"]
-LOSSES = {"inf": "swept, one step", "0.999": "swept, sub-cycles"}
+WAYS = {
+    ("swept", "inf"): ("swept, one step", ":"),
+    ("swept", "0.999"): ("swept, sub-cycles", "-"),
+    ("overlay", "0.999"): ("overlay", "--"),
+}
 COLUMNS = [
     "scheme",
+    "method",
     "largest loss",
     "cells moved",
     "seconds",
@@ -37,18 +42,19 @@ def draw(rows):
     local = [row for row in rows if row["kind"] != "border"]
     fig, (left, middle, right) = common.figure(3, width=13, height=4.4)
     for i, scheme in enumerate(SCHEMES):
-        for loss, style in zip(LOSSES, ("--", "-")):
+        for (method, loss), (label, style) in WAYS.items():
             chosen = [
                 row
                 for row in border
-                if (row["scheme"], row["largest loss"]) == (scheme, loss)
+                if (row["scheme"], row["method"], row["largest loss"])
+                == (scheme, method, loss)
             ]
             look = {
                 "color": common.COLOURS[i],
                 "marker": common.MARKERS[i],
                 "markersize": 4.5,
                 "linestyle": style,
-                "label": f"{scheme.replace('_', ' ')}, {LOSSES[loss]}",
+                "label": f"{scheme.replace('_', ' ')}, {label}",
             }
             x = [float(row["cells moved"]) for row in chosen]
             beyond = [float(row["out of bounds"]) for row in chosen]
@@ -91,11 +97,9 @@ def main():
     keys = list(dict.fromkeys(["kind", *COLUMNS, *LOCAL]))
     rows = []
     for scheme in SCHEMES:
-        for loss in LOSSES:
-            rows += [
-                {"kind": "border"} | row
-                for row in cyclic.cases([program, "border", scheme, loss], COLUMNS)
-            ]
+        for method, loss in WAYS:
+            words = [program, "border", scheme, method, loss]
+            rows += [{"kind": "border"} | row for row in cyclic.cases(words, COLUMNS)]
     rows += cyclic.cases([program, "local"], LOCAL)
     rows = [{key: row.get(key, "") for key in keys} for row in rows]
     common.write_table(HERE, rows)

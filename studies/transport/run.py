@@ -10,9 +10,20 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import common  # noqa: E402
 
-SCHEMES = ["donor_cell", "limited_linear", "linear"]
-SQUARES = [17, 35, 70, 140]  # along a side
+SCHEMES = [
+    "donor_cell",
+    "limited_linear",
+    "linear",
+    "smooth_extrema",
+    "barth_jespersen",
+    "venkatakrishnan",
+    "van_leer",
+    "minmod",
+]
+MAIN = SCHEMES[:3]  # whose meshes are named in the chart
+SQUARES = [17, 25, 35, 70, 140]  # along a side
 HEIGHT = 100.0  # of the pulse
+COLOURS = [*common.COLOURS, "#888888"]
 
 PULSE = {
     "title": "Rotating pulse, for a study",
@@ -77,7 +88,7 @@ def draw(runs):
     for i, scheme in enumerate(SCHEMES):
         chosen = [runs[scheme, n] for n in SQUARES]
         look = {
-            "color": common.COLOURS[i],
+            "color": COLOURS[i],
             "marker": common.MARKERS[i],
             "label": scheme.replace("_", " "),
         }
@@ -86,14 +97,14 @@ def draw(runs):
         middle.plot([r.seconds for r in chosen], peaks, **look)
         right.plot(SQUARES, [max(overshoot(r), 1e-17) for r in chosen], **look)
         for ax, values in ((left, [error(r) for r in chosen]), (middle, peaks)):
-            for n, run, value in zip(SQUARES, chosen, values):
+            for n, run, value in zip(SQUARES, chosen, values if scheme in MAIN else []):
                 ax.annotate(
                     f"{n}²",
                     (run.seconds, value),
                     (4, 4),
                     textcoords="offset points",
                     fontsize=8,
-                    color=common.COLOURS[i],
+                    color=COLOURS[i],
                 )
     left.set(xscale="log", yscale="log")
     ticks = [0.1, 0.2, 0.3, 0.5, 1.0, 1.5]

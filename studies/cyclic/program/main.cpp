@@ -2,10 +2,10 @@
 //
 // Cases of the remap library alone, for studies: one line of CSV a case.
 //
-//   remap_cases schemes                 names, one a line
-//   remap_cases cyclic SCHEME SQUARES   every path and function, 80 remaps
-//   remap_cases border SCHEME LOSS      a jump shaken by 0.1 to 3 cells
-//   remap_cases local                   a part of 131 072 cells
+//   remap_cases schemes                        names, one a line
+//   remap_cases cyclic SCHEME METHOD SQUARES   every path and function
+//   remap_cases border SCHEME METHOD LOSS      a jump moved by 0.1 to 3 cells
+//   remap_cases local                          a part of 131 072 cells
 
 #include "remap/tests/cyclic.h"
 
@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 using namespace remap;
 
@@ -23,14 +24,26 @@ double now()
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// A cell is squared: distances in sides of squares.
-void cyclic_cases(const std::string& name, int squares)
+/// By its name on the command line.
+std::optional<Method> method_named(const std::string& name)
+{
+  if (name == "swept")
+    return Method::swept;
+  if (name == "overlay")
+    return Method::overlay;
+  return {};
+}
+
+/// 80 remaps that end where they began.
+void cyclic_cases(const std::string& name, const std::string& method,
+                  int squares)
 {
   const auto cycle = cyclic::Cycle::squares(squares);
   for (const auto function : cyclic::functions)
     for (const auto path : cyclic::paths)
     {
-      const Options options = {.scheme = *find<Schemes>(name),
+      const Options options = {.method = *method_named(method),
+                               .scheme = *find<Schemes>(name),
                                .max_loss = 0.999};
       const bool range = name == scheme::SmoothExtrema::name;
       // The fastest of a few: small meshes are over in milliseconds.
@@ -40,9 +53,10 @@ void cyclic_cases(const std::string& name, int squares)
             std::min(best.seconds,
                      cycle.run(path, function, 80, options, range).seconds);
       const auto [least, most] = cyclic::range(function);
-      std::printf("%s,%s,%s,%d,%d,%.6g,%.6g,%.3g,%.3g,%d,%s\n", name.c_str(),
-                  cyclic::name(function).data(), cyclic::name(path).data(),
-                  squares, cycle.mesh.num_cells(), best.seconds, best.error,
+      std::printf("%s,%s,%s,%s,%d,%d,%.6g,%.6g,%.3g,%.3g,%d,%s\n", name.c_str(),
+                  method.c_str(), cyclic::name(function).data(),
+                  cyclic::name(path).data(), squares, cycle.mesh.num_cells(),
+                  best.seconds, best.error,
                   std::max({0.0, least - best.lowest, best.highest - most}),
                   best.mass_error, best.cycles, describe(best.outcome).data());
     }
@@ -61,7 +75,8 @@ std::vector<double> wave(std::span<const double> x, double amplitude)
 }
 
 /// The shock, 20 times away and home by so many cells.
-void border_cases(const std::string& name, double max_loss)
+void border_cases(const std::string& name, const std::string& method,
+                  double max_loss)
 {
   constexpr int squares = 32, times = 20;
   const auto cycle = cyclic::Cycle::squares(squares);
@@ -74,7 +89,8 @@ void border_cases(const std::string& name, double max_loss)
   {
     const auto away = wave(cycle.data.x, cells / squares);
     Remapper remapper(cycle.mesh,
-                      {.scheme = *find<Schemes>(name),
+                      {.method = *method_named(method),
+                       .scheme = *find<Schemes>(name),
                        .max_loss = max_loss,
                        .boundaries = std::vector(4, Boundary::closed)});
     auto u = start;
@@ -101,9 +117,10 @@ void border_cases(const std::string& name, double max_loss)
       before += v[c] * start[c];
       after += v[c] * u[c];
     }
-    std::printf("%s,%g,%g,%.6g,%.6g,%.3g,%.3g,%d,%s\n", name.c_str(), max_loss,
-                cells, seconds, error / before, beyond,
-                (after - before) / before, cycles, describe(outcome).data());
+    std::printf("%s,%s,%g,%g,%.6g,%.6g,%.3g,%.3g,%d,%s\n", name.c_str(),
+                method.c_str(), max_loss, cells, seconds, error / before,
+                beyond, (after - before) / before, cycles,
+                describe(outcome).data());
   }
 }
 
@@ -171,8 +188,8 @@ void local_cases()
 
 int usage()
 {
-  std::fprintf(stderr, "remap_cases schemes | cyclic SCHEME SQUARES | border "
-                       "SCHEME MAX_LOSS | local\n");
+  std::fprintf(stderr, "remap_cases schemes | cyclic SCHEME METHOD SQUARES "
+                       "| border SCHEME METHOD MAX_LOSS | local\n");
   return 2;
 }
 } // namespace
@@ -185,12 +202,13 @@ int main(int argc, char** argv)
       std::printf("%s\n", name.c_str());
   else if (words.size() == 1 and words[0] == "local")
     local_cases();
-  else if (words.size() == 3 and find<Schemes>(words[1]))
+  else if (words.size() == 4 and find<Schemes>(words[1])
+           and method_named(words[2]))
   {
     if (words[0] == "cyclic")
-      cyclic_cases(words[1], std::stoi(words[2]));
+      cyclic_cases(words[1], words[2], std::stoi(words[3]));
     else if (words[0] == "border")
-      border_cases(words[1], std::stod(words[2]));
+      border_cases(words[1], words[2], std::stod(words[3]));
     else
       return usage();
   }
