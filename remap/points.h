@@ -32,6 +32,12 @@ public:
   [[nodiscard]] const Mesh& mesh() const { return _triangles; }
   [[nodiscard]] int points() const { return static_cast<int>(_layout.size()); }
 
+  /// Vertex a of a triangle's layout: the mesh's node at its corner.
+  [[nodiscard]] std::int32_t corner(std::int32_t triangle) const
+  {
+    return _triangles.cell(triangle)[0];
+  }
+
   /// Place the nodes of a cell's triangles.
   /// @param[in]  x    of the mesh's nodes, shape (num_nodes, 2)
   /// @param[out] out  of the triangles' nodes, shape (mesh().num_nodes(), 2)

@@ -22,6 +22,8 @@ std::vector<std::string> Options::complaints() const
     out.push_back("point_components: points are needed");
   if (per_mass and (nodal_components < 1 or cell_components < 1))
     out.push_back("per_mass: cell_components and nodal_components are needed");
+  if (method == Method::overlay and per_mass)
+    out.push_back("per_mass: fields per mass need method swept");
   return out;
 }
 
@@ -54,6 +56,9 @@ Remapper::Remapper(const Mesh& mesh, Options options)
     _nodes.reserve(mesh, o.per_mass, widest_block(o.nodal_components));
     _flags.resize(nodes);
   }
+  if (o.overlay_ready or o.method == Method::overlay)
+    _overlap = std::make_unique<Overlap>(
+        mesh, o.point_components > 0 ? o.points : nullptr);
   if (o.per_mass)
   {
     _amounts.inner.resize(_cells.inner.from.size());
@@ -442,8 +447,26 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
   if (inverted(true, host))
     return Outcome::inverted_target;
 
-  double at = 0;
-  double left = 1, loss = 0;
+  Outcome out = Outcome::ok;
+  if (_options.method == Method::swept)
+    out = sweep_on<G>(fields, host);
+  const bool too_far =
+      out == Outcome::too_many_cycles or out == Outcome::inverted_path;
+  if (_options.method == Method::overlay
+      or (too_far and _overlap and not _masses))
+    out = overlay_on<G>(fields, host);
+  if (out != Outcome::ok)
+    return out;
+  repair(fields, host);
+  settle(fields, host, ledger);
+  return Outcome::ok;
+}
+
+/// All the way by swept regions, or until one of its ends is told.
+template <Geometry G>
+Outcome Remapper::sweep_on(const Fields& fields, const Host& host)
+{
+  double at = 0, left = 1, loss = 0;
   while (at < 1)
   {
     if (_report.cycles > 0)
@@ -470,8 +493,33 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
     if (_fine)
       place_points(_cells.touched, _x, _points->x);
   }
-  repair(fields, host);
-  settle(fields, host, ledger);
+  return Outcome::ok;
+}
+
+/// From where the fields are now, at _x, to the end.
+template <Geometry G>
+Outcome Remapper::overlay_on(const Fields& fields, const Host& host)
+{
+  place(1);
+  measure<G>(_report.cycles == 0, host);
+  measure_next<G>(_x_new);
+  Outcome out = _overlap->cells<G>(_cells, _x, _y);
+  const std::int64_t worst = _overlap->worst_cell();
+  if (_fine and out == Outcome::ok)
+    out = _overlap->points<G>(_points->volumes, _points->x, _points->y);
+  if (_dual and out == Outcome::ok)
+    out = _overlap->nodes<G>(_nodes, _cells.touched, _x, _y);
+  // All ranks end alike.
+  double all[2] = {static_cast<double>(out), static_cast<double>(worst)};
+  host.max(all);
+  out = static_cast<Outcome>(static_cast<int>(all[0]));
+  if (out != Outcome::ok)
+  {
+    _report.worst_cell = static_cast<std::int64_t>(all[1]);
+    return out;
+  }
+  carry<G>(fields, host);
+  _report.overlaid = true;
   return Outcome::ok;
 }
 

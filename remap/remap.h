@@ -15,6 +15,7 @@
 #include "remap/transport/carrier.h"
 #include "remap/transport/cell_volumes.h"
 #include "remap/transport/nodal_volumes.h"
+#include "remap/transport/overlap.h"
 #include "remap/transport/repair.h"
 
 #include <memory>
@@ -24,18 +25,30 @@
 
 namespace remap
 {
+/// How old volumes and new ones exchange what they hold.
+enum class Method
+{
+  swept, ///< regions that facets sweep, in sub-cycles where needed; where they
+         ///< would be too many, overlay takes the rest of the way
+  overlay, ///< exact overlap of old and new volumes, of any length of way
+};
+
 /// How to remap.
 struct Options
 {
   Geometry geometry = Geometry::plane;
+  Method method = Method::swept;
   Scheme scheme = scheme::LimitedLinear{};       ///< of cells and points
   Scheme nodal_scheme = scheme::LimitedLinear{}; ///< of nodal fields
   /// Largest part of itself that a volume may lose in one sub-cycle. Bounds
   /// hold below 1. Doubled: half the sub-cycles, less smearing, less stability.
   /// Infinite: never sub-cycle.
   double max_loss = 0.5;
-  /// More sub-cycles than this end in `too_many_cycles`. Doubled: longer moves.
+  /// More sub-cycles than this, or a way on which a cell inverts, go to the
+  /// overlay if that is ready, or end in `too_many_cycles`, `inverted_path`.
   int max_cycles = 200;
+  /// Keep the overlay ready? It takes memory; fields per mass cannot use it.
+  bool overlay_ready = false;
   /// What each boundary marker does; a facet without a marker is closed.
   std::vector<Boundary> boundaries = {};
   /// Triangles of the cells' points, if there are any: must outlive this.
@@ -53,6 +66,7 @@ struct Options
 struct Report
 {
   int cycles = 0;                 ///< sub-cycles
+  bool overlaid = false;          ///< did the overlay take (part of) the way?
   double loss = 0;                ///< largest part lost by a volume, undivided
   std::int32_t moved_nodes = 0;   ///< of this rank, with ghosts
   std::int32_t touched_cells = 0; ///< of this rank, with ghosts
@@ -137,6 +151,10 @@ private:
   template <Geometry G>
   void sweep();
   template <Geometry G>
+  Outcome sweep_on(const Fields& fields, const Host& host);
+  template <Geometry G>
+  Outcome overlay_on(const Fields& fields, const Host& host);
+  template <Geometry G>
   Outcome choose_cycle(double at, double& left, double& loss, const Host& host);
   void place(double at);
   template <Geometry G>
@@ -168,5 +186,6 @@ private:
   std::vector<Exchange> _book;            // this call: volumes, all fields
   Halo _cell_halo, _point_halo, _node_halo;
   Repair _repair;
+  std::unique_ptr<Overlap> _overlap;
 };
 } // namespace remap

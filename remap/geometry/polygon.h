@@ -234,8 +234,8 @@ inline Moments fan(const double* x, const double* y, int n, double radius)
     return {};
   // About the first vertex, then about the origin.
   const double area = w / 2;
-  mx /= 6;
-  my /= 6;
+  mx *= 1.0 / 6;
+  my *= 1.0 / 6;
   if constexpr (G == Geometry::plane)
     return {area, mx + area * x[0], my + area * y[0]};
   else
@@ -261,17 +261,33 @@ inline void load(const Triangle& t, Point origin, double* x, double* y)
 }
 
 /// Overlap of two counter-clockwise triangles, moments about q's first vertex.
-/// All three cuts are made, whether needed or not: which are needed cannot be
-/// guessed, and a wrong guess costs more than a cut.
+///
+/// @param[in] cuts half-planes of q, a bit each, that p does not lie in wholly.
+/// All of them without knowing: to find out by a branch would cost more than
+/// the cut.
 template <Geometry G>
-inline Moments overlap_from(const Triangle& p, const Triangle& q)
+inline Moments overlap_from(const Triangle& p, const Triangle& q,
+                            unsigned cuts = 7)
 {
+  constexpr std::uint8_t first[8] = {0, 0, 1, 0, 2, 0, 1, 0};
+  constexpr std::uint8_t second[8] = {0, 0, 0, 1, 0, 2, 2, 1};
   const Point o = q[0], u = q[1] - o, v = q[2] - o;
+  const HalfPlane planes[3] = {
+      HalfPlane::left_of({}, u), HalfPlane::left_of(u, v), {{-v.y, v.x}, {}}};
+  const int n = std::popcount(cuts);
   double x0[5], y0[5], x1[6], y1[6], x2[7], y2[7], x3[6], y3[6];
   load(p, o, x0, y0);
-  if (not cut<3>(HalfPlane::left_of({}, u), x0, y0, x1, y1)
-      or not cut<4>({{-v.y, v.x}, {}}, x1, y1, x2, y2)
-      or not cut<5>(HalfPlane::left_of(u, v), x2, y2, x3, y3))
+  if (n == 0)
+    return fan<G>(x0, y0, 3, o.x);
+  if (not cut<3>(planes[first[cuts]], x0, y0, x1, y1))
+    return {};
+  if (n == 1)
+    return fan<G>(x1, y1, 4, o.x);
+  if (not cut<4>(planes[second[cuts]], x1, y1, x2, y2))
+    return {};
+  if (n == 2)
+    return fan<G>(x2, y2, 5, o.x);
+  if (not cut<5>(planes[2], x2, y2, x3, y3))
     return {};
   return fan<G>(x3, y3, 6, o.x);
 }
@@ -287,14 +303,8 @@ inline Triangle turned(const Triangle& t)
 template <Geometry G, int N>
 [[nodiscard]] Moments moments(const Polygon<N>& p)
 {
-  // From its own first vertex, so that far from the origin digits are kept.
-  if (p.size < 3)
-    return {};
-  std::array<double, N> x, y;
-  for (int i = 0; i < p.size; ++i)
-    x[i] = p.x[i] - p.x[0], y[i] = p.y[i] - p.y[0];
-  return polygon::shifted(polygon::fan<G>(x.data(), y.data(), p.size, p.x[0]),
-                          p[0]);
+  return p.size < 3 ? Moments{}
+                    : polygon::fan<G>(p.x.data(), p.y.data(), p.size, 0);
 }
 
 /// Both sides of a cut. They share the two new corners to the last bit.

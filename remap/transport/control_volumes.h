@@ -195,6 +195,18 @@ struct ControlVolumes
     remains[i] = remains[i] - v * (at - centroid[i]);
   }
 
+  /// Make room for one more piece of each kind, beyond what facets can sweep.
+  void make_room()
+  {
+    if (inner.count + 2 > inner.from.size())
+      inner.reserve(2 * inner.from.size());
+    if (outer.count + 2 <= outer.from.size())
+      return;
+    outer.reserve(2 * outer.from.size());
+    facet.resize(outer.from.size());
+    marker.resize(outer.from.size());
+  }
+
   /// Add a region that goes from one volume to another.
   void exchange(std::int32_t from, std::int32_t to, double v, Point at)
   {

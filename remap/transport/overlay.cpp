@@ -24,11 +24,19 @@ double depth(Point a, Point b, Point p)
   return cross(b - a, p - a);
 }
 
-/// Which edges of p, one bit each, pass through the inside of q with a part of
-/// q beyond them. The axes of an edge and a triangle that may part them are the
-/// edge's normal and those of the triangle. Without branches: nobody can guess
-/// the answer.
-unsigned edges_inside(const Triangle& p, const Triangle& q)
+/// How a triangle p lies to another, q.
+struct Position
+{
+  /// Edges of p, one bit each, that pass through the inside of q with a part of
+  /// q beyond them.
+  unsigned edges = 0;
+  /// Half-planes of q, one bit each, that p does not lie in wholly.
+  unsigned cuts = 0;
+};
+
+/// The axes of an edge and a triangle that may part them are the edge's normal
+/// and those of the triangle. Without branches: nobody can guess the answer.
+Position position(const Triangle& p, const Triangle& q)
 {
   const Point u = q[1] - q[0], v = q[2] - q[0];
   // Twice the areas with pairs of edges of q, and depths in its half-planes;
@@ -45,7 +53,11 @@ unsigned edges_inside(const Triangle& p, const Triangle& q)
     d[1][i] = (pu[i] - pv[i]) + uv;
     d[2][i] = pv[i];
   }
-  unsigned out = 0;
+  Position out;
+  for (int j = 0; j < 3; ++j)
+    out.cuts |= static_cast<unsigned>(
+                    not(std::min(std::min(d[j][0], d[j][1]), d[j][2]) > 0))
+                << j;
   for (int k = 0; k < 3; ++k)
   {
     const int l = k == 2 ? 0 : k + 1;
@@ -56,7 +68,7 @@ unsigned edges_inside(const Triangle& p, const Triangle& q)
     const double reach = std::min(
         std::min(std::max(d[0][k], d[0][l]), std::max(d[1][k], d[1][l])),
         std::max(d[2][k], d[2][l]));
-    out |=
+    out.edges |=
         (static_cast<unsigned>(reach > 0) & static_cast<unsigned>(beyond < 0))
         << k;
   }
@@ -149,6 +161,7 @@ Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh)
   _seen.assign(n + 1, never);
   _slot.assign(n, -1);
   _queue.resize(n + 1);
+  _cuts.resize(n + 1);
   _rest.resize(n);
   _pieces.reserve(usual_pieces * n);
   _edges.reserve(n);
@@ -255,7 +268,8 @@ void Overlay::spread(const Side& through, const Triangle& target,
   for (std::size_t i = first; i < _queued; ++i)
   {
     const std::int32_t e = _queue[i];
-    const unsigned edges = edges_inside(place(through, e), target);
+    const auto [edges, cuts] = position(place(through, e), target);
+    _cuts[i] = static_cast<std::uint8_t>(cuts);
     for (unsigned k = 0; k < 3; ++k)
       visit(_beside[e][k], edges >> k & 1u);
   }
@@ -263,7 +277,8 @@ void Overlay::spread(const Side& through, const Triangle& target,
 
 /// Visit all cells of one mesh that overlap cell c at its place in the other,
 /// from c, or from the cell that is there now, outwards.
-/// @param[in] use use(cell, its place): does it overlap?
+/// @param[in] use use(cell, its place, half-planes of the target that cut it):
+/// does it overlap?
 template <class Use>
 void Overlay::walk(const Side& through, std::int32_t c, const Triangle& target,
                    Use&& use)
@@ -274,7 +289,7 @@ void Overlay::walk(const Side& through, std::int32_t c, const Triangle& target,
   spread(through, target, 0);
   // The list first, then the overlaps: what comes next on the list hangs on
   // what is there, overlaps do not hang on each other.
-  if (not use(c, place(through, c)))
+  if (not use(c, place(through, c), _cuts[0]))
     if (const std::int32_t there = locate(through, c, target); there >= 0)
     {
       const std::size_t behind = _queued;
@@ -282,15 +297,15 @@ void Overlay::walk(const Side& through, std::int32_t c, const Triangle& target,
       spread(through, target, behind);
     }
   for (std::size_t i = 1; i < _queued; ++i)
-    use(_queue[i], place(through, _queue[i]));
+    use(_queue[i], place(through, _queue[i]), _cuts[i]);
 }
 
 /// Overlap of old cell c with new cell d, into the books of both.
 template <Geometry G>
 bool Overlay::add(std::int32_t c, std::int32_t d, const Triangle& old_place,
-                  const Triangle& new_place)
+                  const Triangle& new_place, unsigned cuts)
 {
-  const Moments m = polygon::overlap_from<G>(old_place, new_place);
+  const Moments m = polygon::overlap_from<G>(old_place, new_place, cuts);
   if (not(m.v > 0))
     return false;
   _new.found[d] += m.v;
@@ -389,8 +404,9 @@ void Overlay::match()
     if (o.hi.y > n.lo.y and n.hi.y > o.lo.y
         and (o.cell < owned or n.cell < owned) and not known(o.cell, n.cell))
       _matched +=
-          add<G>(o.cell, n.cell, place(_old, o.cell), place(_new, n.cell)) ? 1
-                                                                           : 0;
+          add<G>(o.cell, n.cell, place(_old, o.cell), place(_new, n.cell), 7)
+              ? 1
+              : 0;
   };
   auto o = _old_boxes.begin();
   auto n = _new_boxes.begin();
@@ -541,8 +557,8 @@ Outcome Overlay::intersect(std::span<const double> x_old,
       continue;
     const Triangle target = place(_new, d);
     _new.range[d][0] = behind();
-    walk(_old, d, target, [&](std::int32_t c, const Triangle& p)
-         { return add<G>(c, d, p, target); });
+    walk(_old, d, target, [&](std::int32_t c, const Triangle& p, unsigned cuts)
+         { return add<G>(c, d, p, target, cuts); });
     _new.range[d][1] = behind();
   }
   if (not collect_left<G>(_old))
@@ -555,10 +571,10 @@ Outcome Overlay::intersect(std::span<const double> x_old,
       const Triangle target = place(_old, c);
       _old.range[c][0] = behind();
       walk(_new, c, target,
-           [&](std::int32_t d, const Triangle& p)
+           [&](std::int32_t d, const Triangle& p, unsigned)
            {
              return d < owned ? d != c or _rest[c].volume > 0
-                              : add<G>(c, d, target, p);
+                              : add<G>(c, d, target, p, 7);
            });
       _old.range[c][1] = behind();
     }

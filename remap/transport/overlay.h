@@ -118,7 +118,7 @@ private:
                                     const Triangle& target) const;
   template <Geometry G>
   bool add(std::int32_t c, std::int32_t d, const Triangle& old_place,
-           const Triangle& new_place);
+           const Triangle& new_place, unsigned cuts);
   template <Geometry G>
   [[nodiscard]] bool collect_left(Side& side);
   template <Geometry G>
@@ -139,6 +139,7 @@ private:
   std::vector<std::uint32_t> _seen; ///< number of the last walk that came by
   std::uint32_t _walk = 0;
   std::vector<std::int32_t> _queue; ///< cells to visit, the first _queued
+  std::vector<std::uint8_t> _cuts;  ///< half-planes that cut each of them
   std::size_t _queued = 0;
   std::vector<std::int32_t> _slot;
   Side _old, _new;

@@ -71,7 +71,13 @@ Ran remap_once(const Mesh& mesh, std::span<const double> from,
   Remapper remapper(mesh, {.scheme = scheme,
                            .max_loss = max_loss,
                            .boundaries = std::vector(4, Boundary::closed)});
-  const Field field{.values = u};
+  // One that gives way at smooth extrema is told the range.
+  static constexpr double least = 0, most = 1;
+  const bool range = scheme.index() == Scheme(scheme::SmoothExtrema{}).index();
+  const std::span<const double> none;
+  const Field field{.values = u,
+                    .least = range ? std::span(&least, 1) : none,
+                    .most = range ? std::span(&most, 1) : none};
   Ledger ledger;
   const Outcome outcome = remapper.remap(from, to, {&field, 1}, {}, {}, ledger);
   return {outcome, remapper.report().cycles,
