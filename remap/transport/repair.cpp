@@ -143,13 +143,17 @@ double Repair::run(const Field& field, int k, const ControlVolumes& cv,
     }
   if (not(host.max(bad) > 0))
     return 0;
+  // Round-off is put back too, but not counted.
+  const double range = field.most[k] - field.least[k];
+  const auto small = [range](double end)
+  { return 1e-12 * (std::isfinite(range) ? range : std::abs(end)); };
   _work.assign(std::max(_work.size(), std::size_t(cv.num)), Work{});
   for (std::int32_t i : cv.touched)
     if (i < cv.owned)
     {
       double& u = value(field, k, i);
       const double in = std::min(std::max(u, field.least[k]), field.most[k]);
-      number += u != in ? 1 : 0;
+      number += std::abs(u - in) > small(in) ? 1 : 0;
       _work[i].excess = (u - in) * cv.next[i];
       u = in;
     }

@@ -24,7 +24,8 @@ public:
   /// @param[in,out] field  means, ghosts up to date in and out
   /// @param[in]     cv     volumes (`next`) that changed and their neighbours
   /// @param[in]     halo   fills ghosts of an array over these volumes
-  /// @param[out]    number of our values that were out of range
+  /// @param[out]    number of our values that were out of range, by more than
+  ///                       round-off
   /// @return amount that found no room, the same on all ranks: 0 if all is well
   double run(const Field& field, int k, const ControlVolumes& cv,
              const std::function<void(std::span<double>, int)>& halo,
