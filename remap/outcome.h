@@ -12,7 +12,8 @@ namespace remap
 enum class Outcome
 {
   ok,              ///< done
-  wrong_size,      ///< a span does not fit the mesh; nothing was changed
+  wrong_size,      ///< a span does not fit the mesh, or a field the options;
+                   ///< nothing was changed
   not_finite,      ///< a coordinate is NaN or infinite; nothing was changed
   inverted_start,  ///< a cell to be worked on has no positive volume at start
   inverted_target, ///< a cell would have no positive volume at its new place
@@ -29,7 +30,7 @@ constexpr std::string_view describe(Outcome outcome)
   case Outcome::ok:
     return "done";
   case Outcome::wrong_size:
-    return "an array does not fit the mesh";
+    return "an array does not fit the mesh, or a field the options";
   case Outcome::not_finite:
     return "a coordinate is not finite";
   case Outcome::inverted_start:

@@ -3,6 +3,7 @@
 #include "remap/points.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 using namespace remap;
 
@@ -53,6 +54,13 @@ void PointMesh::place(std::int32_t c, std::span<const double> x,
 
 Mesh PointMesh::make(std::span<const double> x) const
 {
+  std::string trouble;
+  for (const std::string& line : complaints(_layout))
+    trouble += line + "\n";
+  if (x.size() != std::size_t(2) * _mesh->num_nodes())
+    trouble += "x: two coordinates a node are needed\n";
+  if (not trouble.empty())
+    throw std::invalid_argument(trouble);
   const std::int32_t facets = six() ? _mesh->num_facets() : 0;
   std::vector<std::int32_t> cells, marked, markers;
   std::vector<std::int64_t> ids;

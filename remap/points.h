@@ -26,10 +26,13 @@ class PointMesh
 public:
   /// @param[in] mesh   kept by reference: must outlive this
   /// @param[in] layout three or six points
-  /// @param[in] x      of the mesh's nodes, as at its construction
+  /// @param[in] x      of the mesh's nodes, no cell inverted
+  /// @throws std::invalid_argument with every complaint, one a line
   PointMesh(const Mesh& mesh, PointLayout layout, std::span<const double> x);
 
   [[nodiscard]] const Mesh& mesh() const { return _triangles; }
+  /// The mesh whose cells have these points.
+  [[nodiscard]] const Mesh& cells() const { return *_mesh; }
   [[nodiscard]] int points() const { return static_cast<int>(_layout.size()); }
 
   /// Vertex a of a triangle's layout: the mesh's node at its corner.

@@ -44,6 +44,8 @@ Remapper::Remapper(const Mesh& mesh, Options options)
   if (o.point_components > 0)
   {
     const Mesh& fine = o.points->mesh();
+    if (&o.points->cells() != &mesh)
+      throw std::invalid_argument("points: they are of another mesh\n");
     _points = std::make_unique<Points>();
     _points->volumes.reserve(fine, sides, false,
                              widest_block(o.point_components));
@@ -80,10 +82,12 @@ bool Remapper::fits(const Field& field, std::int32_t num, int components) const
   return n >= 1 and n <= components and field.group >= 1
          and field.group <= largest_group and n % field.group == 0
          and field.values.size() == size * num
-         and field.least.size() == field.most.size()
          and (field.weights.empty()
               or field.weights.size() == static_cast<std::size_t>(field.group))
          and (field.least.empty() or field.least.size() == size)
+         and std::equal(field.least.begin(), field.least.end(),
+                        field.most.begin(), field.most.end(),
+                        [](double a, double b) { return a <= b; })
          and (not any_open
               or field.inflow.size() == size * _options.boundaries.size());
 }
@@ -140,7 +144,6 @@ void Remapper::find_touched(std::span<const double> x_old,
   }
   if (_fine)
     touch_points();
-  _report = {};
   _report.moved_nodes = static_cast<std::int32_t>(_moved_nodes.size());
   _report.touched_cells = static_cast<std::int32_t>(_cells.touched.size());
 }
@@ -288,12 +291,15 @@ Outcome Remapper::choose_cycle(double at, double& left, double& loss,
     loss = host.max(loss);
     if (_report.cycles == 0 and left == 1)
       _report.loss = loss;
-    if (loss <= (1 + slack) * _options.max_loss)
-      return Outcome::ok;
-    const double steps = std::max(needed(left, loss), left + 1.0);
-    if (_report.cycles + 1 >= _options.max_cycles or not(steps < shortest))
+    const bool good = loss <= (1 + slack) * _options.max_loss;
+    const bool last = _report.cycles + 1 >= _options.max_cycles;
+    if (last and not(good and left == 1))
       return Outcome::too_many_cycles;
-    left = steps;
+    if (good)
+      return Outcome::ok;
+    left = std::max(needed(left, loss), left + 1.0);
+    if (not(left < shortest))
+      return Outcome::too_many_cycles;
   }
 }
 
@@ -383,6 +389,7 @@ void Remapper::carry(const Fields& fields, const Host& host)
 }
 
 /// Values back into their ranges.
+template <Geometry G>
 void Remapper::repair(const Fields& fields, const Host& host)
 {
   double repaired = 0;
@@ -401,8 +408,11 @@ void Remapper::repair(const Fields& fields, const Host& host)
   all(fields.cells, _cells, _cell_halo);
   if (_fine)
     all(fields.points, _points->volumes, _point_halo);
-  all(fields.nodes, _nodes, _node_halo);
   all(fields.per_mass, _nodes, _node_halo);
+  // Fields per mass leave masses where volumes were.
+  if (_masses and not fields.nodes.empty())
+    _nodes.measure_next<G>(_x_new);
+  all(fields.nodes, _nodes, _node_halo);
   host.sum(std::span(&repaired, 1));
   _report.repaired = static_cast<std::int64_t>(repaired);
 }
@@ -457,7 +467,7 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
     out = overlay_on<G>(fields, host);
   if (out != Outcome::ok)
     return out;
-  repair(fields, host);
+  repair<G>(fields, host);
   settle(fields, host, ledger);
   return Outcome::ok;
 }
@@ -545,6 +555,7 @@ Outcome Remapper::remap(std::span<const double> x_old,
     return std::all_of(x.begin(), x.end(),
                        [](double v) { return std::isfinite(v); });
   };
+  _report = {};
   // All ranks learn of the worst trouble of any, and that some node moved.
   const bool fit = sizes_fit(x_old, x_new, fields);
   const bool good = fit and finite(x_old) and finite(x_new);

@@ -47,7 +47,8 @@ struct Options
   /// More sub-cycles than this, or a way on which a cell inverts, go to the
   /// overlay if that is ready, or end in `too_many_cycles`, `inverted_path`.
   int max_cycles = 200;
-  /// Keep the overlay ready? It takes memory; fields per mass cannot use it.
+  /// Keep the overlay ready? It takes memory; fields per mass cannot use it,
+  /// on more than one process nodal fields cannot either.
   bool overlay_ready = false;
   /// What each boundary marker does; a facet without a marker is closed.
   std::vector<Boundary> boundaries = {};
@@ -77,7 +78,8 @@ struct Report
   /// Largest part of its mass that a node lost in a sub-cycle. Velocities keep
   /// their bounds below 1.
   double mass_loss = 0;
-  std::int64_t repaired = 0; ///< values of all ranks that were put in range
+  /// Values of all ranks that were out of their range by more than round-off.
+  std::int64_t repaired = 0;
   /// Largest amount of a component that found no room in its range.
   double unrepaired = 0;
 };
@@ -93,8 +95,8 @@ public:
 
   /// Carry fields from x_old to x_new. Collective. Only volumes next to a node
   /// that moved are worked on. When the outcome is not ok, fields are as they
-  /// were, except after `inverted_path` and `too_many_cycles`: then they may
-  /// stand part of the way, and the host goes back to its copy.
+  /// were if the report tells of no sub-cycle; else they stand part of the way,
+  /// the ledger does not know of it, and the host goes back to its copy.
   ///
   /// @param[in]     x_old, x_new shape (num_nodes, 2), ghosts up to date [m]
   /// @param[in,out] fields       what travels
@@ -165,6 +167,7 @@ private:
                         const Scheme& scheme, const Halo& halo,
                         const Host& host, std::size_t entry,
                         int with_amounts = -1);
+  template <Geometry G>
   void repair(const Fields& fields, const Host& host);
   void settle(const Fields& fields, const Host& host, Ledger& ledger);
 

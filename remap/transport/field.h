@@ -41,8 +41,9 @@ struct Field
   /// What flows in at open boundaries, shape (markers, components); may be
   /// empty if no boundary is open.
   std::span<const double> inflow = {};
-  /// Range that no value may leave, shape (components), or empty: none. A
-  /// scheme that does not keep it by itself is repaired at the end of a remap.
+  /// Range that no value may leave, shape (components), infinite where it has
+  /// no end, or empty: none. A scheme that does not keep it by itself is
+  /// repaired at the end of a remap.
   std::span<const double> least = {};
   std::span<const double> most = {};
 };
@@ -62,7 +63,8 @@ struct Fields
   /// At nodes too, but per mass (velocity): what is conserved is
   /// Σ mass · value, with the masses of the corners around a node.
   std::span<const Field> per_mass = {};
-  /// Which of `cells` is the density that makes these masses.
+  /// Which of `cells` is the density that makes these masses; one component,
+  /// > 0 everywhere.
   int density = -1;
 };
 

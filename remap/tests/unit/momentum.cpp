@@ -12,6 +12,7 @@
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
+#include <numeric>
 
 using namespace remap;
 using Catch::Approx;
@@ -164,6 +165,39 @@ TEST_CASE("momentum: per volume, divided by new masses, it leaves its bounds",
     fastest =
         std::max(fastest, std::abs(per_volume[i] * v1[i / 2] / after[i / 2]));
   CHECK(fastest > 1.05);
+}
+
+TEST_CASE("momentum: a pressure beside it is repaired in volumes, not masses",
+          "[momentum]")
+{
+  const auto geometry = GENERATE(Geometry::plane, Geometry::axisymmetric);
+  Body body(geometry, 3, 0.1, 2);
+  std::vector<double> before(body.mesh.num_nodes()), after = before, p = before;
+  dual_volumes(body.mesh, geometry, body.x, before);
+  dual_volumes(body.mesh, geometry, body.to, after);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p[i] = body.velocity[2 * i] > 0 ? 1 : 0;
+  Remapper remapper(body.mesh, {.geometry = geometry,
+                                .nodal_scheme = scheme::Linear{},
+                                .boundaries = std::vector(4, Boundary::closed),
+                                .nodal_components = 2,
+                                .per_mass = true});
+  const double least = 0, most = 1;
+  const Field rho{.values = body.density};
+  const Field pressure{.values = p, .least = {&least, 1}, .most = {&most, 1}};
+  const Field v{.values = body.velocity, .components = 2, .group = 2};
+  double sum = std::inner_product(p.begin(), p.end(), before.begin(), 0.0);
+  Ledger ledger;
+  REQUIRE(remapper.remap(body.x, body.to,
+                         {.cells = {&rho, 1},
+                          .nodes = {&pressure, 1},
+                          .per_mass = {&v, 1},
+                          .density = 0},
+                         {}, ledger)
+          == Outcome::ok);
+  CHECK(remapper.report().repaired > 0);
+  sum -= std::inner_product(p.begin(), p.end(), after.begin(), 0.0);
+  CHECK(std::abs(sum + net(ledger.nodes[0])) < 1e-14);
 }
 
 TEST_CASE("momentum: order two for a smooth velocity", "[momentum]")

@@ -93,6 +93,20 @@ TEST_CASE("points: bad layouts are named", "[points]")
   CHECK(complaints(PointLayout{{0, 0}, {1, 2}, {2, 0}}).size() == 1);
 }
 
+TEST_CASE("points: bad layouts and meshes are refused", "[points]")
+{
+  const auto data = meshes::rectangle(2, 2, meshes::Diagonal::right);
+  const Mesh mesh = data.mesh(), other = data.mesh();
+  CHECK_THROWS_AS(PointMesh(mesh, {{0, 1}, {1, 2}}, data.x),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(PointMesh(mesh, three, std::span(data.x).subspan(2)),
+                  std::invalid_argument);
+  const PointMesh points(other, three, data.x);
+  const Options options{.points = &points, .point_components = 1};
+  CHECK_THROWS_AS(Remapper(mesh, options), std::invalid_argument);
+  CHECK_NOTHROW(Remapper(other, options));
+}
+
 TEST_CASE("points: without a mesh for them there is a complaint", "[points]")
 {
   CHECK(Options{.point_components = 2}.complaints().size() == 1);

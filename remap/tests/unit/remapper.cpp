@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <limits>
 
 using namespace remap;
 using Catch::Approx;
@@ -208,6 +209,65 @@ TEST_CASE("remapper: a move that passes through nothing says so", "[remap]")
   CHECK(t.run(to, {.max_loss = 12, .boundaries = closed})
         == Outcome::inverted_path);
   CHECK(t.report.worst_cell >= 0);
+}
+
+TEST_CASE("remapper: no more sub-cycles than allowed", "[remap]")
+{
+  // No single step is too long: only their number is.
+  const std::vector closed(4, Boundary::closed);
+  const auto run = [&](int most, bool overlay)
+  {
+    Square s;
+    auto to = s.data.x;
+    for (std::size_t i = 0; i < to.size(); i += 2)
+      to[i] += 1;
+    const Outcome out = s.run(
+        to,
+        {.max_cycles = most, .overlay_ready = overlay, .boundaries = closed});
+    return std::pair(out, s.report);
+  };
+  const int needed = run(200, false).second.cycles;
+  REQUIRE(needed > 4);
+  CHECK(run(needed, false).first == Outcome::ok);
+  CHECK(run(needed - 1, false).first == Outcome::too_many_cycles);
+  const auto [out, report] = run(3, true);
+  CHECK(out == Outcome::ok);
+  CHECK(report.cycles < 3);
+  CHECK(report.overlaid);
+}
+
+TEST_CASE("remapper: a range without end is one", "[remap]")
+{
+  Square s;
+  for (std::size_t c = 0; c < s.u.size(); ++c)
+    s.u[c] = c % 16 < 8 ? 0 : 1;
+  const double before = s.mass(s.data.x);
+  const auto to = meshes::shaken(s.data.x, 0.06, 3);
+  const double least = 0, most = std::numeric_limits<double>::infinity();
+  const Field field{.values = s.u, .least = {&least, 1}, .most = {&most, 1}};
+  Remapper remapper(s.mesh, {.scheme = scheme::Linear{}});
+  REQUIRE(remapper.remap(s.data.x, to, {&field, 1}, {}, {}, s.ledger)
+          == Outcome::ok);
+  CHECK(remapper.report().repaired > 0);
+  CHECK(*std::min_element(s.u.begin(), s.u.end()) >= 0);
+  CHECK(s.mass(to) == Approx(before).epsilon(1e-14));
+}
+
+TEST_CASE("remapper: a range upside down is refused, the report is new",
+          "[remap]")
+{
+  Square s;
+  const double least = 1, most = 0;
+  const auto to = meshes::shaken(s.data.x, 0.06, 3);
+  Remapper remapper(s.mesh, {});
+  const Field good{.values = s.u};
+  REQUIRE(remapper.remap(s.data.x, to, {&good, 1}, {}, {}, s.ledger)
+          == Outcome::ok);
+  CHECK(remapper.report().moved_nodes > 0);
+  const Field bad{.values = s.u, .least = {&least, 1}, .most = {&most, 1}};
+  CHECK(remapper.remap(s.data.x, to, {&bad, 1}, {}, {}, s.ledger)
+        == Outcome::wrong_size);
+  CHECK(remapper.report().moved_nodes == 0);
 }
 
 TEST_CASE("remapper: bad options are all named at once", "[remap]")
