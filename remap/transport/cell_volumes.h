@@ -8,7 +8,6 @@
 #include "remap/transport/control_volumes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace remap

@@ -50,7 +50,8 @@ inline void fit(ControlVolumes& cv, std::int32_t i)
   for (std::int32_t j : around)
     mean += dot(cv.centroid[j] - c, cv.centroid[j] - c);
   const double near2 =
-      nearest * mean / static_cast<double>(std::max(around.size(), 1ul));
+      nearest * mean
+      / static_cast<double>(std::max(around.size(), std::size_t(1)));
   for (std::int32_t j : around)
   {
     const Point d = cv.centroid[j] - c;

@@ -5,7 +5,6 @@
 #include "remap/geometry/position.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 using namespace remap;

@@ -159,7 +159,7 @@ TEST_CASE("overlay: takes over where swept regions need too many sub-cycles",
 
   // A few sub-cycles first, then the rest of the way.
   options.max_cycles = 3;
-  auto part = v = std::vector<double>(before.size(), 1.5);
+  std::vector<double> part(before.size(), 1.5);
   REQUIRE(wave.run(what, part, options, ledger, &report) == Outcome::ok);
   CHECK(report.overlaid);
   for (double one : part)
