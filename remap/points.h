@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: data at the points of a quadrature rule. A point stands for a
+// METHOD 3: data at the points of a quadrature rule. A point stands for a
 // triangle of its cell: one of three with a facet and the cell's centroid, or
 // one of six between the medians. They move with the cell, so what they
 // exchange is swept like what cells exchange, and their volumes add up to the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.2 and 4.3: carry fields from a mesh to the same mesh with other node
+// METHOD 3: carry fields from a mesh to the same mesh with other node
 // positions. In: old and new coordinates, means over cells, over the triangles
 // of their points, over dual volumes, and velocities. Out: new means, and a
 // ledger of what passed the boundary. Conserved: the integral of every

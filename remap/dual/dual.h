@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: the median dual. A cell is cut by its medians into three corners;
+// METHOD 3: the median dual. A cell is cut by its medians into three corners;
 // the corners around a node are its dual volume. Middles and centroids of cells
 // move on straight lines when the nodes do, so dual facets sweep exactly what
 // the dual volumes gain and lose.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.2: volumes and first moments of triangles, corners and swept
+// METHOD 3: volumes and first moments of triangles, corners and swept
 // regions. Plane: per unit thickness [m^3/m]; axisymmetric: per radian
 // [m^3/rad], x is the radius r. All are signed and exact polynomials of the
 // coordinates, so parts add up to the whole to round-off (Pappus included).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.2 and 4.4: convex polygons on the stack, cut by half-planes, with
+// METHOD 3: convex polygons on the stack, cut by half-planes, with
 // volume and first moments; the exact overlap of two triangles. Nothing is
 // allocated. Volumes are never negative and never NaN for finite input: a
 // cut divides only by the difference of a positive and a non-positive distance.

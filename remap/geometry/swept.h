@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.2: the region that a facet sweeps when its ends move on straight
+// METHOD 3: the region that a facet sweeps when its ends move on straight
 // lines. Volumes on both sides change by exactly these regions:
 // V⁺ = V⁻ − ΣF, F counted positive out of the volume.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: how good a triangle is. In: coordinates; out: a number that is 1
+// METHOD 2: how good a triangle is. In: coordinates; out: a number that is 1
 // at best, falls to 0 with a triangle's area and is not positive when inverted.
 // None depends on size, place or rotation.
 #pragma once

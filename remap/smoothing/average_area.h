@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, averaging: the mean of the centroids of the patch's cells, each
+// METHOD 2, averaging: the mean of the centroids of the patch's cells, each
 // weighted with its plane area. Evens out cell sizes; knows no target shape.
 #pragma once
 

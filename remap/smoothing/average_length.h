@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, averaging: the mean of the neighbours, each weighted with its
+// METHOD 2, averaging: the mean of the neighbours, each weighted with its
 // distance. Long edges pull more: evens out edge lengths.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: a body's curved boundary as a guide: the cubics through its nodes
+// METHOD 2: a body's curved boundary as a guide: the cubics through its nodes
 // as they were when `follow` was called. In: positions; out: where a node that
 // slides belongs. Facets of length h of a smooth boundary: off by O(h⁴) where
 // they are even, by O(h³) where their lengths jump.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: quality of a mesh's cell, for the files of this folder.
+// METHOD 2: quality of a mesh's cell, for the files of this folder.
 #pragma once
 
 #include "remap/mesh.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: colours of nodes, so that no two nodes of a colour share a cell.
+// METHOD 2: colours of nodes, so that no two nodes of a colour share a cell.
 // Nodes of one colour may move in any order with the same result. The colours
 // depend on global numbers alone: the same on any number of ranks.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: what nodes of kind `curve` are held to. The host may bring its
+// METHOD 2: what nodes of kind `curve` are held to. The host may bring its
 // own, a rigid profile for one; `boundary_curve.h` has that of a body's curved
 // boundary.
 #pragma once

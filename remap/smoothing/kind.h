@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: what a node may do when the mesh is smoothed.
+// METHOD 2: what a node may do when the mesh is smoothed.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, averaging: the plain mean of the neighbours. The cheapest; cells
+// METHOD 2, averaging: the plain mean of the neighbours. The cheapest; cells
 // crowd where few neighbours are, and without acceptance it inverts cells of
 // domains that are not convex.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, optimisation: minimise Σ (|T|²/(2 det T))^n over the patch, T = A
+// METHOD 2, optimisation: minimise Σ (|T|²/(2 det T))^n over the patch, T = A
 // W⁻¹, by Newton with backtracking. n = 1: for equilateral targets the inverse
 // mean ratio, Winslow's functional on triangles of one size; with the initial
 // shapes as targets a graded mesh stays graded. The greater n, the more the

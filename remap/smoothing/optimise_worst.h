@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, optimisation of the worst cells: minimise Σ (|T|²/(2 det T))⁸
+// METHOD 2, optimisation of the worst cells: minimise Σ (|T|²/(2 det T))⁸
 // over the patch, as `optimise` does with the first power. The worst cell gets
 // better than there, the mean a little worse.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: the cells around one node, as a smoother sees them.
+// METHOD 2: the cells around one node, as a smoother sees them.
 #pragma once
 
 #include "remap/quality/quality.h"

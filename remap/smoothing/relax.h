@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1, a rezone in part: where a full move would take many sub-cycles of
+// METHOD 2, a rezone in part: where a full move would take many sub-cycles of
 // the transport, nodes go only so far towards their new places that no cell
 // loses more than a stated part of itself. Kept: no cell inverts on the way;
 // the result is the same on any number of ranks.

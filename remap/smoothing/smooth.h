@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: move flagged nodes so that cells get a better shape. In: node
+// METHOD 2: move flagged nodes so that cells get a better shape. In: node
 // positions and what each node may do; out: better positions. Kept: no cell
 // inverts, the worst cell does not get worse (surface nodes: see `Kind`), nodes
 // without a flag stay to the last bit, the result is the same on any number of

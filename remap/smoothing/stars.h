@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: the cells around each node in the order in which smoothers see
+// METHOD 2: the cells around each node in the order in which smoothers see
 // them, found once for a mesh.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: a node of a free surface moves parallel to the chord of its two
+// METHOD 2: a node of a free surface moves parallel to the chord of its two
 // neighbours on the surface. The plane area does not change by that; in
 // axisymmetry a step across the chord keeps the volume. Two neighbours move
 // against each other and keep both.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: where an inverted cell is at a node, the node goes where the
+// METHOD 2: where an inverted cell is at a node, the node goes where the
 // smallest area of its patch is largest: a linear programme, as every area is
 // linear in the node's place. Positive there if any place is good. Where no
 // place is, since neighbours are in the way, all go down a distortion whose

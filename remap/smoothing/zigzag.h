@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.1: takes the zigzag out of a free surface. A node that keeps the
+// METHOD 2: takes the zigzag out of a free surface. A node that keeps the
 // area between its two neighbours keeps a zigzag too; two neighbours that move
 // together can lose it, and keep the area (the volume) to round-off.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.2: the cells of a mesh as control volumes: which change when nodes
+// METHOD 3: the cells of a mesh as control volumes: which change when nodes
 // move, how large they are, what their facets sweep. Used for the cells and for
 // the triangles of their points.
 #pragma once

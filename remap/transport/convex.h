@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: a vector or tensor over one sub-cycle, limited as one, in a
+// METHOD 3: a vector or tensor over one sub-cycle, limited as one, in a
 // convex set that its old values at its place and around span, in any frame.
 //
 // The set is their convex hull: what lies in any convex set (a yield surface)

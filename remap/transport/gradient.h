@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: least-squares gradients of B neighbouring components of a field,
+// METHOD 3: least-squares gradients of B neighbouring components of a field,
 // the bounds that the neighbours set, and the factors that keep them. In: means
 // over volumes; out: ControlVolumes::gradient, shape (num, B, 2), lo, hi,
 // factor, shape (num, B).

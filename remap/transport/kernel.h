@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: one field over one sub-cycle. In: volumes with their pieces; out:
+// METHOD 3: one field over one sub-cycle. In: volumes with their pieces; out:
 // new means. Conserved: Σ mean · volume, up to what the ledger books.
 //
 // Bounds. With every piece's value and the value of what remains taken from one

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: how much of a gradient may be used, in [0, 1]. The smallest
+// METHOD 3: how much of a gradient may be used, in [0, 1]. The smallest
 // factor over all that a limiter looks at holds for a volume. It looks at the
 // *places* where values will be taken (centroids of the leaving regions and of
 // what remains), and some of them also at the *sides*, the neighbours across

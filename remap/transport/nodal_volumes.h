@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: the dual volumes of nodes as control volumes, for fields per
+// METHOD 3: the dual volumes of nodes as control volumes, for fields per
 // volume (pressure) and, after them in the same sub-cycle, for fields per mass
 // (velocity).
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: what old volumes give to new ones by exact overlap, as pieces of
+// METHOD 3: what old volumes give to new ones by exact overlap, as pieces of
 // control volumes: of cells, of the triangles of their points, and of dual
 // volumes, which are made of six triangles a cell.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: the exact overlap of the old cells with the new ones, for moves
+// METHOD 3: the exact overlap of the old cells with the new ones, for moves
 // of any length. In: old and new coordinates, the cells that change. Out: what
 // goes from each old cell to each new one, with centroids, and what stays.
 // Conserved: parts of an old cell add up to it, parts of a new one fill it, to

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: put values back into a range that they may not leave, without
+// METHOD 3: put values back into a range that they may not leave, without
 // changing their integral. In: new means and volumes; out: means in range, or
 // the amount that found no room. Bounded schemes do not need it.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4.3: the transport schemes. A swept region carries its donor's mean
+// METHOD 3: the transport schemes. A swept region carries its donor's mean
 // (order 1), or the donor's least-squares linear function, limited, taken at
 // the region's centroid (order 2). A scheme is a name, an order and a limiter.
 #pragma once
