@@ -131,7 +131,6 @@ inline double mean_by_parts(Function f, Point a, Point b, Point c, int n)
 /// Exact part of a triangle below the shock: what a line cuts off.
 inline double part_below(Point a, Point b, Point c)
 {
-  const std::array<Point, 3> v = {a, b, c};
   const auto depth = [](Point p) { return (p.x - 0.4) - 0.3 * p.y; };
   const std::array<double, 3> d = {depth(a), depth(b), depth(c)};
   const auto inside =
