@@ -4,7 +4,7 @@
 #include "mesh/corners.h"
 #include "output/archive.h"
 #include "placement.h"
-#include "point_mesh.h"
+#include "point_layout.h"
 #include "remap/quality/quality.h"
 #include "remap/remap.h"
 #include "remap/smoothing/relax.h"
@@ -76,9 +76,13 @@ bool among(const std::vector<std::string>& list, const std::string& name)
   return std::ranges::find(list, name) != list.end();
 }
 
+/// What the remapper is to be ready for.
 ::remap::Options transport_options(const mesh::Domain& domain,
-                                   const scene::Scene& scene, int widest)
+                                   const scene::Scene& scene, bool law,
+                                   int history,
+                                   const ::remap::PointMesh* points)
 {
+  const int widest = std::max(law ? 4 : 1, history);
   ::remap::Options o;
   o.geometry = geometry(scene);
   o.scheme = *::remap::find<::remap::Schemes>(scene.remap.transport);
@@ -89,16 +93,12 @@ bool among(const std::vector<std::string>& list, const std::string& name)
         among(scene.remap.open, name)      ? ::remap::Boundary::open
         : among(scene.remap.surface, name) ? ::remap::Boundary::free_surface
                                            : ::remap::Boundary::closed);
-  o.cell_components = widest;
-  o.nodal_components = scene.motion ? 0 : 2;
-  return o;
-}
-
-::remap::Options point_options(const mesh::Domain& domain,
-                               const scene::Scene& scene, int history)
-{
-  auto o = transport_options(domain, scene, std::max(4, history));
-  o.nodal_components = 0;
+  o.points = points;
+  o.cell_components = points ? 1 : widest;
+  o.point_components = points ? widest : 0;
+  o.per_mass = std::ranges::any_of(scene.stage, [](const auto& stage)
+                                   { return stage.dynamics.has_value(); });
+  o.nodal_components = scene.motion ? 0 : o.per_mass ? 2 : 1;
   return o;
 }
 
@@ -150,11 +150,6 @@ struct RemapStep::Impl
   void add_stress(State& state, std::vector<::remap::Field>& fields) const;
   void make_admissible(State& state, RemapLog& log);
 
-  bool axisymmetric() const
-  {
-    return scene.symmetry == scene::Symmetry::axisymmetric;
-  }
-
   const mesh::Domain& domain;
   const scene::Scene& scene;
   const std::optional<material::AnyLaw>& law;
@@ -162,21 +157,8 @@ struct RemapStep::Impl
   ::remap::Host host;
   ::remap::Mesh mesh;
   int history;
+  std::optional<::remap::PointMesh> points; // with layout `quadrature`
   ::remap::Remapper remapper;
-  struct Points
-  {
-    Points(const mesh::Domain& domain, const scene::Scene& scene, int history,
-           const ::remap::Host& cells)
-        : mesh(domain, scene.solver.points), host(mesh.host(cells)),
-          remapper(mesh.mesh(), point_options(domain, scene, history))
-    {
-    }
-    PointMesh mesh;
-    ::remap::Host host;
-    ::remap::Remapper remapper;
-    ::remap::Ledger ledger; // for nobody: the cells' own is the run's
-  };
-  std::unique_ptr<Points> points;              // with layout `quadrature`
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
   ::remap::Ledger ledger;
 
@@ -190,30 +172,16 @@ struct RemapStep::Impl
 
 namespace
 {
-/// Momentum of the nodes, which travels instead of their velocity.
-struct Momentum
+std::optional<::remap::PointMesh>
+make_points(const mesh::Domain& domain, const scene::Scene& scene,
+            const std::optional<material::AnyLaw>& law,
+            const ::remap::Mesh& mesh)
 {
-  std::vector<double> density; ///< per dual volume, shape (nodes, 2) [kg/m2/s]
-
-  Momentum() = default;
-  Momentum(const mesh::Domain& domain, const State& state, bool axisymmetric)
-      : density(state.v)
-  {
-    const auto mass = mesh::lump(domain, state.x, state.density, axisymmetric);
-    const auto volume = mesh::lump(domain, state.x, {}, axisymmetric);
-    for (std::size_t i = 0; i < density.size(); ++i)
-      density[i] *= mass[i / 2] / volume[i / 2];
-  }
-
-  /// Velocities from it on the new mesh.
-  void put(const mesh::Domain& domain, State& state, bool axisymmetric) const
-  {
-    const auto mass = mesh::lump(domain, state.x, state.density, axisymmetric);
-    const auto volume = mesh::lump(domain, state.x, {}, axisymmetric);
-    for (std::size_t i = 0; i < density.size(); ++i)
-      state.v[i] = density[i] * volume[i / 2] / mass[i / 2];
-  }
-};
+  if (not law or scene.solver.layout != scene::Layout::quadrature)
+    return std::nullopt;
+  return ::remap::PointMesh(mesh, point_layout(scene.solver.points),
+                            domain.initial_x);
+}
 
 int history_numbers(const std::optional<material::AnyLaw>& law)
 {
@@ -229,11 +197,10 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
     : domain(domain), scene(scene), law(law), clock(clock),
       host(make_host(domain)), mesh(make_mesh(domain)),
       history(history_numbers(law)),
-      remapper(mesh,
-               transport_options(domain, scene, std::max(law ? 4 : 1, history)))
+      points(make_points(domain, scene, law, mesh)),
+      remapper(mesh, transport_options(domain, scene, law.has_value(), history,
+                                       points ? &*points : nullptr))
 {
-  if (law and scene.solver.layout == scene::Layout::quadrature)
-    points = std::make_unique<Points>(domain, scene, history, host);
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
@@ -319,7 +286,9 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
 void RemapStep::Impl::add_stress(State& state,
                                  std::vector<::remap::Field>& fields) const
 {
-  fields.push_back({.values = state.s, .components = 4, .group = 4});
+  static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
+  fields.push_back(
+      {.values = state.s, .components = 4, .group = 4, .weights = metric});
   fields.push_back({.values = state.P});
   if (history > 0)
     fields.push_back({.values = state.history, .components = history});
@@ -330,10 +299,9 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
 {
   const auto scope = clock.scope("3 transport");
   State copy = state; // a remap that stops half way is taken back
-  std::vector<::remap::Field> cells, nodes, at_points;
+  std::vector<::remap::Field> cells, nodes, at_points, per_mass;
   std::vector<std::vector<double>> inflow;
   inflow.reserve(state.tracer.size());
-  Momentum momentum;
   if (law)
   {
     cells.push_back({.values = state.density});
@@ -342,8 +310,7 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
   }
   if (not state.a.empty())
   {
-    momentum = Momentum(domain, state, axisymmetric());
-    nodes.push_back({.values = momentum.density, .components = 2});
+    per_mass.push_back({.values = state.v, .components = 2, .group = 2});
     if (not state.p_rate.empty())
       nodes.push_back({.values = state.p_rate});
   }
@@ -354,12 +321,14 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     cells.push_back({.values = values, .inflow = inflow.back()});
   }
   const ::remap::Ledger before = ledger;
-  auto outcome = remapper.remap(state.x, x, cells, nodes, host, ledger);
+  const auto outcome = remapper.remap(state.x, x,
+                                      {.cells = cells,
+                                       .points = at_points,
+                                       .nodes = nodes,
+                                       .per_mass = per_mass,
+                                       .density = 0},
+                                      host, ledger);
   log.cycles = remapper.report().cycles;
-  if (points and outcome == ::remap::Outcome::ok)
-    outcome = points->remapper.remap(points->mesh.nodes(state.x),
-                                     points->mesh.nodes(x), at_points, {},
-                                     points->host, points->ledger);
   if (outcome != ::remap::Outcome::ok)
   {
     log.trouble = ::remap::describe(outcome);
@@ -368,8 +337,6 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     return false;
   }
   std::ranges::copy(x, state.x.begin());
-  if (not state.a.empty())
-    momentum.put(domain, state, axisymmetric());
   return true;
 }
 

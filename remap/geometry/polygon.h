@@ -320,6 +320,8 @@ void split(const Polygon<N>& p, const HalfPlane& h, Polygon<M>& in,
   assert(p.size < 32 and p.size < M);
   in.size = out.size = 0;
   const int n = p.size;
+  if (n == 0)
+    return;
   const double *x = p.x.data(), *y = p.y.data();
   std::array<double, N> depth;
   const unsigned inside = polygon::inside_bits(h, x, y, n, depth.data());
@@ -355,6 +357,8 @@ void clip(const Polygon<N>& p, const HalfPlane& h, Polygon<M>& in)
   assert(p.size < 32 and p.size < M);
   in.size = 0;
   const int n = p.size;
+  if (n == 0)
+    return;
   const double *x = p.x.data(), *y = p.y.data();
   std::array<double, N> depth;
   const unsigned inside = polygon::inside_bits(h, x, y, n, depth.data());

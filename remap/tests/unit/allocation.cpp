@@ -5,6 +5,7 @@
 #include "remap/remap.h"
 #include "remap/smoothing/boundary_curve.h"
 #include "remap/smoothing/smooth.h"
+#include "remap/tests/carry.h"
 #include "remap/tests/meshes.h"
 
 #include <atomic>
@@ -93,5 +94,25 @@ TEST_CASE("remap and smoothing allocate nothing after set-up", "[allocation]")
   const long after = allocations;
   CHECK(good);
   CHECK(remapper.report().cycles > 1);
+  CHECK(after == before);
+}
+
+TEST_CASE("an overlay allocates nothing after set-up", "[allocation][overlay]")
+{
+  const meshes::Data data =
+      meshes::rectangle(20, 20, meshes::Diagonal::crossed);
+  const Mesh mesh = data.mesh();
+  const auto from = meshes::shaken(data.x, 0.0125, 3);
+  auto to = meshes::shaken(data.x, 0.0125, 4);
+  for (std::size_t i = 0; i < to.size(); i += 2)
+    to[i] += 0.13; // the outline moves too, by more than two cells
+  const auto touched = carry::touched(mesh, from, to);
+  Overlay overlay(mesh);
+  const long before = allocations;
+  const bool good =
+      overlay.intersect<Geometry::plane>(from, to, touched) == Outcome::ok;
+  const long after = allocations;
+  CHECK(good);
+  CHECK(overlay.pieces().size() > touched.size());
   CHECK(after == before);
 }
