@@ -287,8 +287,12 @@ void RemapStep::Impl::add_stress(State& state,
                                  std::vector<::remap::Field>& fields) const
 {
   static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
-  fields.push_back(
-      {.values = state.s, .components = 4, .group = 4, .weights = metric});
+  // `admit` has the last word on the yield surface, so order 2 is not given up.
+  fields.push_back({.values = state.s,
+                    .components = 4,
+                    .group = 4,
+                    .bound = ::remap::Bound::ball,
+                    .weights = metric});
   fields.push_back({.values = state.P});
   if (history > 0)
     fields.push_back({.values = state.history, .components = history});

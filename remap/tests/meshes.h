@@ -53,7 +53,10 @@ inline Data rectangle(int nx, int ny, Diagonal diagonal, double x0 = 0,
       out.x.push_back(y0 + height * j / ny);
     }
   const auto add = [&out](int a, int b, int c)
-  { out.cells.insert(out.cells.end(), {a, b, c}); };
+  {
+    for (const int i : {a, b, c})
+      out.cells.push_back(i);
+  };
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
     {

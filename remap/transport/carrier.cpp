@@ -153,10 +153,14 @@ double carry_with(ControlVolumes& cv, const Field& field, const Travel& travel,
           [&]<int N>(std::integral_constant<int, N>)
           {
             if constexpr (N > 1)
-              part = std::min(
-                  part,
-                  carry_convex<N, S::limiter::extends>(
-                      cv, block_of<N>(field, travel, book, first), travel));
+            {
+              const auto block = block_of<N>(field, travel, book, first);
+              const bool ball =
+                  S::limiter::extends or field.bound == Bound::ball;
+              part = std::min(part,
+                              ball ? carry_convex<N, true>(cv, block, travel)
+                                   : carry_convex<N, false>(cv, block, travel));
+            }
           });
     return part;
   }

@@ -10,6 +10,15 @@
 
 namespace remap
 {
+/// What a vector or tensor that is limited as one stays in.
+enum class Bound
+{
+  hull, ///< the convex hull of its neighbours: no value outside, order 1 where
+        ///< values turn on a curved surface
+  ball, ///< the smallest ball about its neighbours' mean that holds them: order
+        ///< 2 there, and a value may leave a convex set by a little
+};
+
 /// A field given per volume (density, momentum density, a state that is a mean
 /// over the volume), over cells or over the dual volumes of nodes.
 struct Field
@@ -20,10 +29,12 @@ struct Field
   int components = 1;
   /// So many consecutive components are one vector or tensor, at most
   /// `largest_group`. 1: each is limited by itself, between the least and the
-  /// largest of its neighbours. More: together, in the convex hull of their
-  /// neighbours; no frame is preferred, and what lies in a convex set (a yield
-  /// surface) stays there.
+  /// largest of its neighbours. More: together, see `bound`; no frame is
+  /// preferred, and in the hull what lies in a convex set (a yield surface)
+  /// stays there.
   int group = 1;
+  /// Of groups; schemes that keep smooth extrema always take the ball.
+  Bound bound = Bound::hull;
   /// Weights of a group's components in the square of its length, shape
   /// (group): 1, 1, 1, 2 for a tensor xx, yy, zz, xy. Empty: all 1.
   std::span<const double> weights = {};

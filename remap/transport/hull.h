@@ -53,7 +53,7 @@ public:
       const double size2 = dot<N>(x, x);
       if (size2 <= close * close)
         return true;
-      Vector<N> y;
+      Vector<N> y{};
       const double ahead = support(target, x, y);
       // No point is nearer to the target's side: x is the nearest.
       if (size2 - ahead <= 1e-14 * size2 or not add(y, x))
