@@ -310,8 +310,6 @@ std::size_t Remapper::carry_all(ControlVolumes& volumes,
                                 const Host& host, std::size_t entry,
                                 int with_amounts)
 {
-  if (not fields.empty())
-    fit_gradients(volumes, scheme);
   for (std::size_t k = 0; k < fields.size(); ++k)
   {
     const auto n = static_cast<std::size_t>(fields[k].components);
@@ -339,7 +337,6 @@ void Remapper::carry_masses(const Fields& fields, std::size_t entry,
   _nodes.exchange_masses<G>(_cells.touched, _moved, _x, _y);
   _report.mass_loss =
       std::max(_report.mass_loss, host.max(_nodes.largest_loss()));
-  fit_gradients(_nodes, _options.nodal_scheme);
   for (const Field& field : fields.per_mass)
   {
     const auto n = static_cast<std::size_t>(field.components);

@@ -199,17 +199,6 @@ int remap::widest_block(int components)
   return std::min(components, std::max(widest_scalars, largest_group));
 }
 
-void remap::fit_gradients(ControlVolumes& cv, const Scheme& scheme)
-{
-  std::visit(
-      [&cv]<class S>(const S&)
-      {
-        if constexpr (S::linear)
-          kernel::fit_all(cv, S::limiter::extends);
-      },
-      scheme);
-}
-
 double remap::carry_field(ControlVolumes& cv, const Field& field,
                           const Travel& travel, std::span<Exchange> book)
 {

@@ -24,10 +24,6 @@ using Halo = std::function<void(std::span<double>, int)>;
 /// Widest block of components that are carried at once.
 [[nodiscard]] int widest_block(int components);
 
-/// Gradients' matrices for the pieces of this sub-cycle, if the scheme needs
-/// them.
-void fit_gradients(ControlVolumes& cv, const Scheme& scheme);
-
 /// What each piece of this sub-cycle takes of a field of one component.
 struct Amounts
 {

@@ -53,12 +53,19 @@ struct ControlVolumes
   const Adjacency* neighbours = nullptr; ///< stencil of gradients and bounds
   const Adjacency* beside = nullptr;     ///< neighbours across a facet
 
-  std::vector<double> volume;       ///< now
-  std::vector<double> next;         ///< after the sub-cycle
-  std::vector<Point> centroid;      ///< now
-  std::vector<double> leaving;      ///< sum of pieces out of a volume
-  std::vector<Point> remains;       ///< centroid of what stays, from `centroid`
-  std::vector<double> fit;          ///< least squares, (num, 4): see gradient.h
+  std::vector<double> volume;  ///< now
+  std::vector<double> next;    ///< after the sub-cycle
+  std::vector<Point> centroid; ///< now
+  std::vector<double> leaving; ///< sum of pieces out of a volume
+  std::vector<Point> remains;  ///< centroid of what stays, from `centroid`
+  std::vector<double> fit;     ///< least squares, (num, 4): see gradient.h
+  /// Which volumes have the `fit` of where they are now?
+  enum
+  {
+    nobody,
+    donors,   ///< volumes that give something away
+    everybody ///< all that change, and the rings around them
+  } fitted = nobody;
   Pieces inner;                     ///< between two volumes
   Pieces outer;                     ///< with one end outside
   std::vector<std::int32_t> marker; ///< of the boundary facet of outer pieces
@@ -181,6 +188,7 @@ struct ControlVolumes
   void drop_pieces()
   {
     inner.count = outer.count = num_swept = 0;
+    fitted = nobody;
     for (std::int32_t i : touched)
     {
       leaving[i] = 0;

@@ -267,6 +267,7 @@ template <int N, bool balls, class Halo, class Max, class Guard>
 void transport_convex(ControlVolumes& cv, const Block<N>& block, Halo&& halo,
                       Max&& max, Guard&& guard)
 {
+  fit_all(cv);
   for (std::int32_t i : cv.touched)
     if (i < cv.owned and cv.leaving[i] > 0)
       slope<N>(cv, i, block.u);

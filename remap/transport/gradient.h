@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace remap::kernel
 {
@@ -37,45 +38,82 @@ inline double weight(Point d, double near2)
   return 1 / (d2 * d2);
 }
 
-/// Least squares over the neighbours of one volume, d from its centroid to
-/// theirs: Σ w dx², the slope m of dy over dx, Σ w (dy − m dx)², as 1/…, m,
-/// 1/…, then the square of the least distance. Neighbours on a line give the
-/// gradient along it, none gives none.
+/// What one pass over the neighbours of a volume gathers, d from its centroid
+/// to theirs: the spread of places and, for B components, of values.
+template <int B>
+struct Gathered
+{
+  double xx = 0, xy = 0, yy = 0; ///< Σ w dx², Σ w dx dy, Σ w dy²
+  double nearest = std::numeric_limits<double>::max(); ///< least d²
+  double square = 0;                                   ///< Σ d²
+  double x[B + 1] = {}, y[B + 1] = {};                 ///< Σ w dx du, Σ w dy du
+  double lo[B + 1] = {}, hi[B + 1] = {}; ///< largest fall and rise
+
+  Gathered(const ControlVolumes& cv, std::int32_t i, double near2,
+           Values<B> u = {})
+  {
+    double own[B + 1];
+    if constexpr (B > 0)
+      std::copy_n(u[i], B, own);
+    const Point c = cv.centroid[i];
+    for (std::int32_t j : (*cv.neighbours)[i])
+    {
+      const Point d = cv.centroid[j] - c;
+      const double d2 = dot(d, d);
+      const double w = weight(d, near2);
+      nearest = std::min(nearest, d2);
+      square += d2;
+      const Point wd = w * d;
+      xx += wd.x * d.x;
+      xy += wd.x * d.y;
+      yy += wd.y * d.y;
+      for (int k = 0; k < B; ++k)
+      {
+        const double du = u[j][k] - own[k];
+        x[k] += wd.x * du;
+        y[k] += wd.y * du;
+        lo[k] = std::min(lo[k], du);
+        hi[k] = std::max(hi[k], du);
+      }
+    }
+  }
+};
+
+/// Nearest neighbours that count in full, of the mean square distance.
+inline constexpr double nearest_part = 0.05;
+/// Below this part of Σ w dy² the rest beside the slope is found anew, by
+/// differences: flat cells cost no more digits than they must.
+inline constexpr double flat_part = 1e-4;
+
+/// Least squares over the neighbours of one volume: Σ w dx², the slope m of dy
+/// over dx, Σ w (dy − m dx)², as 1/…, m, 1/…, then the square of the least
+/// distance. Neighbours on a line give the gradient along it, none gives none.
 inline void fit(ControlVolumes& cv, std::int32_t i)
 {
-  constexpr double nearest = 0.05; // of the mean square distance
-  double xx = 0, xy = 0, yy = 0, mean = 0;
-  const Point c = cv.centroid[i];
   const auto around = (*cv.neighbours)[i];
-  for (std::int32_t j : around)
-    mean += dot(cv.centroid[j] - c, cv.centroid[j] - c);
-  const double near2 =
-      nearest * mean
-      / static_cast<double>(std::max(around.size(), std::size_t(1)));
-  for (std::int32_t j : around)
+  double near2 = 0;
+  Gathered<0> s(cv, i, near2);
+  if (const double mean = s.square / static_cast<double>(around.size());
+      s.nearest < nearest_part * mean)
   {
-    const Point d = cv.centroid[j] - c;
-    const double w = weight(d, near2);
-    xx += w * d.x * d.x;
-    xy += w * d.x * d.y;
-    yy += w * d.y * d.y;
+    near2 = nearest_part * mean;
+    s = Gathered<0>(cv, i, near2);
   }
-  const double m = xx > 1e-30 * yy ? xy / xx : 0;
-  double rest = yy - m * xy;
-  if (rest < 1e-4 * yy)
+  const double m = s.xx > 1e-30 * s.yy ? s.xy / s.xx : 0;
+  double rest = s.yy - m * s.xy;
+  if (rest < flat_part * s.yy)
   {
-    // Flat cells cost no more digits than they must.
     rest = 0;
     for (std::int32_t j : around)
     {
-      const Point d = cv.centroid[j] - c;
+      const Point d = cv.centroid[j] - cv.centroid[i];
       const double off = d.y - m * d.x;
       rest += weight(d, near2) * off * off;
     }
   }
-  const bool line = not(rest > 1e-26 * yy);
+  const bool line = not(rest > 1e-26 * s.yy);
   double* out = &cv.fit[std::size_t(4) * i];
-  out[0] = xx > 1e-30 * yy ? 1 / (xx * (line ? 1 + m * m : 1.0)) : 0;
+  out[0] = s.xx > 1e-30 * s.yy ? 1 / (s.xx * (line ? 1 + m * m : 1.0)) : 0;
   out[1] = m;
   out[2] = line ? 0 : 1 / rest;
   out[3] = near2;
@@ -114,6 +152,36 @@ void slope(ControlVolumes& cv, std::int32_t i, Values<B> u)
     cv.gradient[2 * (at + k) + 1] = a[2] > 0 ? gy : a[1] * gx;
     cv.lo[at + k] = lo[k];
     cv.hi[at + k] = hi[k];
+  }
+}
+
+/// Both in one pass, for the first field: where cells are flat, in two.
+template <int B>
+void fit_and_slope(ControlVolumes& cv, std::int32_t i, Values<B> u)
+{
+  const Gathered<B> s(cv, i, 0, u);
+  const auto number = static_cast<double>((*cv.neighbours)[i].size());
+  const double m = s.xy / s.xx;
+  const double rest = s.yy - m * s.xy;
+  if (not(s.nearest * number >= nearest_part * s.square
+          and rest >= flat_part * s.yy and s.xx >= flat_part * s.yy))
+  {
+    fit(cv, i);
+    return slope<B>(cv, i, u);
+  }
+  double* out = &cv.fit[std::size_t(4) * i];
+  out[0] = 1 / s.xx;
+  out[1] = m;
+  out[2] = 1 / rest;
+  out[3] = 0;
+  const std::size_t at = std::size_t(B) * i;
+  for (int k = 0; k < B; ++k)
+  {
+    const double gy = out[2] * (s.y[k] - m * s.x[k]);
+    cv.gradient[2 * (at + k)] = out[0] * s.x[k] - m * gy;
+    cv.gradient[2 * (at + k) + 1] = gy;
+    cv.lo[at + k] = s.lo[k];
+    cv.hi[at + k] = s.hi[k];
   }
 }
 
@@ -216,14 +284,20 @@ void limited_slopes(ControlVolumes& cv, Values<B> u, const double* least,
 {
   const auto gives = [&cv](std::int32_t i)
   { return i < cv.owned and cv.leaving[i] > 0; };
+  constexpr auto wanted =
+      L::extends ? ControlVolumes::everybody : ControlVolumes::donors;
+  const bool first = cv.fitted < wanted;
+  const auto find = [&](std::int32_t i)
+  { first ? fit_and_slope<B>(cv, i, u) : slope<B>(cv, i, u); };
+  cv.fitted = std::max(cv.fitted, wanted);
   for (std::int32_t i : cv.touched)
     if (L::extends ? i < cv.owned : gives(i))
-      slope<B>(cv, i, u);
+      find(i);
   if constexpr (L::extends)
   {
     for (std::int32_t i : cv.ring)
       if (i < cv.owned)
-        slope<B>(cv, i, u);
+        find(i);
     halo(std::span(cv.gradient.data(), std::size_t(2) * B * cv.num), 2 * B);
   }
   const Limits<L, B> limits{cv, u, least, most};

@@ -105,21 +105,20 @@ void put(const ControlVolumes& cv, Values<B> u)
     }
 }
 
-/// Matrices of the gradients of this sub-cycle.
-inline void fit_all(ControlVolumes& cv, bool with_ring)
+/// Least squares of all volumes that give something away, if not done yet.
+inline void fit_all(ControlVolumes& cv)
 {
+  if (cv.fitted != cv.nobody)
+    return;
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned and (with_ring or cv.leaving[i] > 0))
+    if (i < cv.owned and cv.leaving[i] > 0)
       fit(cv, i);
-  if (with_ring)
-    for (std::int32_t i : cv.ring)
-      if (i < cv.owned)
-        fit(cv, i);
+  cv.fitted = cv.donors;
 }
 
 /// Gradients of B components, each limited by itself, ghosts included.
 ///
-/// @param[in,out] cv    volumes with pieces and, if linear, `fit_all` done
+/// @param[in,out] cv    volumes with pieces
 /// @param[in]     block where means stand
 /// @param[in]     halo  fills ghosts: halo(values, block)
 template <class Scheme, int B, class Halo>

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Which transport scheme buys the most for a second? A pulse carried around."""
+"""Which transport scheme buys the most for a second? A pulse carried around.
+
+With --draw the chart is drawn anew from results.csv.
+"""
 
 import sys
 from pathlib import Path
@@ -83,24 +86,32 @@ def overshoot(run):
     return float(max(high, low, 0) / HEIGHT)
 
 
-def draw(runs):
-    fig, (left, middle, right) = common.figure(3, width=12, height=4.3)
+def draw(rows):
+    """The chart from the table, as text or as numbers."""
+    table = {(r["scheme"], int(r["squares along a side"])): r for r in rows}
+
+    def column(scheme, name, scale=1.0):
+        return [float(table[scheme, n][name]) / scale for n in SQUARES]
+
+    fig, (left, middle, right) = common.figure(3, width=12, height=4.8)
     for i, scheme in enumerate(SCHEMES):
-        chosen = [runs[scheme, n] for n in SQUARES]
         look = {
             "color": COLOURS[i],
             "marker": common.MARKERS[i],
             "label": scheme.replace("_", " "),
         }
-        left.plot([r.seconds for r in chosen], [error(r) for r in chosen], **look)
-        peaks = [r.curves["peak"][-1] / HEIGHT for r in chosen]
-        middle.plot([r.seconds for r in chosen], peaks, **look)
-        right.plot(SQUARES, [max(overshoot(r), 1e-17) for r in chosen], **look)
-        for ax, values in ((left, [error(r) for r in chosen]), (middle, peaks)):
-            for n, run, value in zip(SQUARES, chosen, values if scheme in MAIN else []):
+        seconds, errors = column(scheme, "seconds"), column(scheme, "L1 error")
+        peaks = column(scheme, "peak", HEIGHT)
+        left.plot(seconds, errors, **look)
+        middle.plot(seconds, peaks, **look)
+        right.plot(
+            SQUARES, [max(v, 1e-17) for v in column(scheme, "overshoot")], **look
+        )
+        for ax, values in ((left, errors), (middle, peaks)):
+            for n, x, y in zip(SQUARES, seconds, values if scheme in MAIN else []):
                 ax.annotate(
                     f"{n}²",
-                    (run.seconds, value),
+                    (x, y),
                     (4, 4),
                     textcoords="offset points",
                     fontsize=8,
@@ -112,11 +123,10 @@ def draw(runs):
     left.minorticks_off()
     left.set_ylabel("L1 error over the pulse's content")
     left.set_title("Error after one turn in 720 steps", fontsize=10)
-    left.legend(fontsize=8.5, loc="lower left")
     middle.set(xscale="log", ylim=(0, 1.25))
     middle.axhline(1, color="black", linewidth=1, dashes=(6, 3))
     middle.plot(
-        runs["donor_cell", 35].seconds,
+        float(table["donor_cell", 35]["seconds"]),
         0.57,
         "*",
         color="black",
@@ -124,7 +134,8 @@ def draw(runs):
         label="the paper's peak, order 1",
         linestyle="",
     )
-    middle.legend(fontsize=8.5, loc="lower right")
+    lines = middle.get_legend_handles_labels()
+    fig.legend(*lines, loc="outside lower center", ncols=5, fontsize=9)
     middle.set_ylabel("peak over the pulse's height")
     middle.set_title("Peak after one turn", fontsize=10)
     for ax in (left, middle):
@@ -139,6 +150,8 @@ def draw(runs):
 
 
 def main():
+    if sys.argv[1:] == ["--draw"]:
+        return draw(common.read_table(HERE))
     cases = {(s, n): scene(s, n) for n in SQUARES for s in SCHEMES}
     runs = common.run_all(cases, repeats=2, fields=True)
     rows = []
@@ -163,7 +176,7 @@ def main():
             }
         )
     common.write_table(HERE, rows)
-    draw(runs)
+    draw(rows)
 
 
 if __name__ == "__main__":

@@ -257,6 +257,36 @@ TEMPLATE_LIST_TEST_CASE("scheme: a range is kept, and the integral with it",
   CHECK(remapper.report().unrepaired == 0);
 }
 
+TEMPLATE_LIST_TEST_CASE("scheme: no field minds which travel before it",
+                        "[conformance]", Schemes)
+{
+  const Case k = draw_case(0.2);
+  const std::size_t cells = k.size(false);
+  const auto tensor = random_field(4 * cells, k.seed, 0, 1);
+  const auto scalar = random_field(cells, k.seed + 1, 0, 1);
+  const auto run =
+      [&](std::vector<double>& t, std::vector<double>& s, bool tensor_first)
+  {
+    Remapper remapper(k.mesh, {.geometry = k.geometry,
+                               .scheme = TestType{},
+                               .boundaries = std::vector(4, Boundary::closed),
+                               .cell_components = 4});
+    const Field first{.values = t, .components = 4, .group = 4};
+    const Field second{.values = s};
+    const Field both[] = {tensor_first ? first : second,
+                          tensor_first ? second : first};
+    Ledger ledger;
+    REQUIRE(remapper.remap(k.from, k.to, both, {}, {}, ledger) == Outcome::ok);
+  };
+  auto t1 = tensor, t2 = tensor, s1 = scalar, s2 = scalar;
+  run(t1, s1, true);
+  run(t2, s2, false);
+  for (std::size_t i = 0; i < s1.size(); ++i)
+    CHECK(s1[i] == Approx(s2[i]).margin(1e-13));
+  for (std::size_t i = 0; i < t1.size(); ++i)
+    CHECK(t1[i] == Approx(t2[i]).margin(1e-6));
+}
+
 TEMPLATE_LIST_TEST_CASE("scheme: a tensor is limited as one", "[conformance]",
                         Schemes)
 {
