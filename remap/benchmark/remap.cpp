@@ -113,6 +113,38 @@ void local(benchmark::State& state)
   state.counters["touched"] = remapper.report().touched_cells;
 }
 
+/// Further fields over the same regions, each a field of its own. Bytes are
+/// what each must move at least: its values in and out, the volumes before and
+/// after, and of each region donor, receiver and volume.
+void donor_cell_fields(benchmark::State& state)
+{
+  const Bench& b = Bench::get();
+  const auto number = static_cast<std::size_t>(state.range(0));
+  Remapper remapper(b.mesh, {.scheme = scheme::DonorCell{},
+                             .max_loss = 0.999,
+                             .boundaries = std::vector(4, Boundary::closed)});
+  std::vector<std::vector<double>> u(
+      number, std::vector<double>(b.mesh.num_cells(), 1.0));
+  std::vector<Field> fields;
+  for (auto& one : u)
+    fields.push_back({.values = one});
+  Ledger ledger;
+  bool there = true;
+  for (auto _ : state)
+  {
+    if (remapper.remap(there ? b.data.x : b.to, there ? b.to : b.data.x, fields,
+                       {}, {}, ledger)
+        != Outcome::ok)
+      state.SkipWithError("remap failed");
+    there = not there;
+  }
+  const double regions = 1.5 * b.mesh.num_cells();
+  state.SetBytesProcessed(static_cast<std::int64_t>(
+      static_cast<double>(state.iterations()) * remapper.report().cycles
+      * static_cast<double>(number)
+      * (32.0 * b.mesh.num_cells() + 16 * regions)));
+}
+
 void nodal(benchmark::State& state)
 {
   const Bench& b = Bench::get();
@@ -153,6 +185,11 @@ void bandwidth(benchmark::State& state)
 } // namespace
 
 BENCHMARK(bandwidth)->Unit(benchmark::kMillisecond);
+BENCHMARK(donor_cell_fields)
+    ->Arg(1)
+    ->Arg(9)
+    ->Arg(17)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(donor_cell)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(limited_linear)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 BENCHMARK(overlay_donor_cell)->Arg(1)->Unit(benchmark::kMillisecond);
