@@ -86,6 +86,7 @@ public:
   Smoothing(const Mesh& mesh, SmoothingOptions options, const Host& host);
 
   /// Flag the nodes of cells below the threshold, and rings around. Collective.
+  /// Lengths are not looked at here.
   ///
   /// @param[in]  x     shape (num_nodes, 2), ghosts up to date [m]
   /// @param[in]  targets as in `Constraints`
