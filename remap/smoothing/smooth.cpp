@@ -78,6 +78,11 @@ bool Smoothing::flag(std::span<const double> x,
                      std::span<const quality::Target> targets,
                      std::span<std::uint8_t> flags, const Host& host)
 {
+  const auto n = static_cast<std::size_t>(_mesh->num_nodes());
+  const auto cells = static_cast<std::size_t>(_mesh->num_cells());
+  if (x.size() != 2 * n or flags.size() != n
+      or not(targets.empty() or targets.size() == cells))
+    throw std::invalid_argument("flag: an array does not fit the mesh\n");
   const auto node_cells = [this](std::int32_t i)
   { return _mesh->node_cells()[i]; };
   std::fill(_flags.begin(), _flags.end(), 0.0);

@@ -86,12 +86,13 @@ public:
   Smoothing(const Mesh& mesh, SmoothingOptions options, const Host& host);
 
   /// Flag the nodes of cells below the threshold, and rings around. Collective.
-  /// Lengths are not looked at here.
   ///
   /// @param[in]  x     shape (num_nodes, 2), ghosts up to date [m]
   /// @param[in]  targets as in `Constraints`
   /// @param[out] flags 1 for nodes that shall move, shape (num_nodes)
   /// @return does any rank have a flagged node?
+  /// @throws std::invalid_argument if an array does not fit, before any
+  ///         collective
   bool flag(std::span<const double> x, std::span<const quality::Target> targets,
             std::span<std::uint8_t> flags, const Host& host);
 

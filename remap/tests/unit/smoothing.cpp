@@ -213,6 +213,8 @@ TEST_CASE("smoothing: troubles are outcomes", "[smoothing]")
   const std::vector<std::uint8_t> flags(mesh.num_nodes(), 1);
   const std::vector<Kind> slide(mesh.num_nodes(), Kind::slide);
   auto x = data.x;
+  std::vector<std::uint8_t> few(mesh.num_nodes() - 1);
+  CHECK_THROWS_AS(smoothing.flag(x, {}, few, {}), std::invalid_argument);
   CHECK(smoothing.smooth(x, flags, {.kinds = slide}, {})
         == Outcome::wrong_size);
   x[3] = std::nan("");
