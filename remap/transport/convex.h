@@ -4,17 +4,18 @@
 // convex set that its old values at its place and around span, in any frame.
 //
 // The set is their convex hull: what lies in any convex set (a yield surface)
-// stays there. Or, for schemes that keep smooth extrema, the smallest ball
-// about their mean that holds them. Values that turn on a curved surface have a
-// hull thinner than what they vary in a cell: strictly in the hull,
-// conservation leaves order 1; the ball leaves order 2, and the host's own law
-// takes back what is left outside its surface.
+// stays there. Or it is the smallest ball about their mean that holds them.
+// Values that turn on a curved surface have a hull thinner than what they vary
+// in a cell: strictly in the hull, conservation leaves order 1; the ball leaves
+// order 2, and the host's own law takes back what is left outside its surface.
 //
 // The donor cell's result is in both: a mean of neighbours. To it the pieces
-// add what the linear functions carry more, each as much as the sets on both
-// its sides allow. (A limiter of the gradients, as for scalars, must not be
-// used: a value on the rim of its hull is no mean of two others, and every
-// piece would have to carry the donor's mean.)
+// add what the linear functions carry more, times the smaller factor of the
+// volumes on their two sides. A volume whose sum leaves its set lowers its
+// factor; that changes its neighbours' sums, so it is done again until all are
+// in. (A limiter of the gradients, as for scalars, must not be used: a value on
+// the rim of its hull is no mean of two others, and every piece would have to
+// carry the donor's mean.)
 // @source after the convex limiting of Guermond, Nazarov, Popov & Tomas (2018)
 #pragma once
 
