@@ -8,12 +8,10 @@
 #include "remap/transport/field.h"
 #include "remap/transport/library.h"
 
-#include <functional>
-
 namespace remap
 {
 /// Fills the ghosts of an array over volumes: halo(values, block).
-using Halo = std::function<void(std::span<double>, int)>;
+using Halo = Host::Halo;
 
 /// Does a limiter of the scheme look across facets?
 [[nodiscard]] bool looks_at_sides(const Scheme& scheme);

@@ -148,9 +148,13 @@ private:
         .v;
   }
 
-  template <Geometry G>
-  void sweep_cell(std::int32_t c, std::span<const std::uint8_t> moved,
-                  std::span<const double> x, std::span<const double> y)
+  /// Motions of a cell's dual facets and of the halves of its boundary facets.
+  /// @param[in] inner called with i, the motion between vertices i and i + 1
+  /// @param[in] outer called with facet i, its end 0 or 1, that half's motion
+  template <class Inner, class Outer>
+  void each_facet(std::int32_t c, std::span<const std::uint8_t> moved,
+                  std::span<const double> x, std::span<const double> y,
+                  const Inner& inner, const Outer& outer) const
   {
     const Triple& n = mesh->cell(c);
     const dual::Corners before = dual::corners(*mesh, c, x);
@@ -158,19 +162,36 @@ private:
     for (int i = 0; i < 3; ++i)
     {
       const int j = (i + 1) % 3;
-      if (n[i] < owned or n[j] < owned)
-        sweep<G>(dual::facet(before, after, i), n[i], n[j]);
-      const std::int32_t f = mesh->cell_facets(c)[i];
-      if (not mesh->on_boundary(f) or not(moved[n[i]] or moved[n[j]]))
+      inner(i, dual::facet(before, after, i));
+      if (not mesh->on_boundary(mesh->cell_facets(c)[i])
+          or not(moved[n[i]] or moved[n[j]]))
         continue;
       const Point m0 = middle(before.v[i], before.v[j]);
       const Point m1 = middle(after.v[i], after.v[j]);
-      const std::int32_t boundary = mesh->marker(f);
-      if (n[i] < owned)
-        sweep_boundary<G>({before.v[i], m0, after.v[i], m1}, n[i], f, boundary);
-      if (n[j] < owned)
-        sweep_boundary<G>({m0, before.v[j], m1, after.v[j]}, n[j], f, boundary);
+      outer(i, 0, Motion{before.v[i], m0, after.v[i], m1});
+      outer(i, 1, Motion{m0, before.v[j], m1, after.v[j]});
     }
+  }
+
+  template <Geometry G>
+  void sweep_cell(std::int32_t c, std::span<const std::uint8_t> moved,
+                  std::span<const double> x, std::span<const double> y)
+  {
+    const Triple& n = mesh->cell(c);
+    each_facet(
+        c, moved, x, y,
+        [&](int i, const Motion& m)
+        {
+          const int j = (i + 1) % 3;
+          if (n[i] < owned or n[j] < owned)
+            sweep<G>(m, n[i], n[j]);
+        },
+        [&](int i, int end, const Motion& m)
+        {
+          const std::int32_t f = mesh->cell_facets(c)[i];
+          if (const std::int32_t node = n[(i + end) % 3]; node < owned)
+            sweep_boundary<G>(m, node, f, mesh->marker(f));
+        });
   }
 
   /// Mass that leaves a cell over the half of its facet k at its vertex i.
@@ -250,27 +271,21 @@ private:
                      std::span<const double> x, std::span<const double> y)
   {
     const Triple& n = mesh->cell(c);
-    const dual::Corners before = dual::corners(*mesh, c, x);
-    const dual::Corners after = dual::corners(*mesh, c, y);
     const double* out = &flow[std::size_t(flows) * c];
-    for (int i = 0; i < 3; ++i)
-    {
-      const int j = (i + 1) % 3;
-      exchange_facet<G>(dual::facet(before, after, i), density[c], out[i],
-                        [&](double m, Point at) { give(n[i], n[j], m, at); });
-      const std::int32_t f = mesh->cell_facets(c)[i];
-      if (not mesh->on_boundary(f) or not(moved[n[i]] or moved[n[j]]))
-        continue;
-      const Point m0 = middle(before.v[i], before.v[j]);
-      const Point m1 = middle(after.v[i], after.v[j]);
-      const std::int32_t boundary = mesh->marker(f);
-      exchange_facet<G>({before.v[i], m0, after.v[i], m1}, density[c],
-                        out[3 + 2 * i], [&](double m, Point at)
-                        { give_out(n[i], m, at, f, boundary); });
-      exchange_facet<G>({m0, before.v[j], m1, after.v[j]}, density[c],
-                        out[4 + 2 * i], [&](double m, Point at)
-                        { give_out(n[j], m, at, f, boundary); });
-    }
+    each_facet(
+        c, moved, x, y,
+        [&](int i, const Motion& m)
+        {
+          exchange_facet<G>(m, density[c], out[i], [&](double mass, Point at)
+                            { give(n[i], n[(i + 1) % 3], mass, at); });
+        },
+        [&](int i, int end, const Motion& m)
+        {
+          const std::int32_t f = mesh->cell_facets(c)[i];
+          exchange_facet<G>(
+              m, density[c], out[3 + 2 * i + end], [&](double mass, Point at)
+              { give_out(n[(i + end) % 3], mass, at, f, mesh->marker(f)); });
+        });
   }
 };
 } // namespace remap

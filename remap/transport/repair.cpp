@@ -130,8 +130,8 @@ double Repair::spread(const Field& field, int k, const ControlVolumes& cv,
 }
 
 double Repair::run(const Field& field, int k, const ControlVolumes& cv,
-                   const std::function<void(std::span<double>, int)>& halo,
-                   const Host& host, std::int64_t& number)
+                   const Host::Halo& halo, const Host& host,
+                   std::int64_t& number)
 {
   double bad = 0;
   number = 0;

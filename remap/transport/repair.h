@@ -28,11 +28,10 @@ public:
   ///                       round-off
   /// @return amount that found no room, the same on all ranks: 0 if all is well
   double run(const Field& field, int k, const ControlVolumes& cv,
-             const std::function<void(std::span<double>, int)>& halo,
-             const Host& host, std::int64_t& number);
+             const Host::Halo& halo, const Host& host, std::int64_t& number);
 
 private:
-  using Halo = std::function<void(std::span<double>, int)>;
+  using Halo = Host::Halo;
   /// What is known of a volume, its neighbours included.
   struct Work
   {
