@@ -113,6 +113,20 @@ struct Pair
                                                            : 0.5 * (s + r);
   }
 
+  /// A few Newton steps from a chord that is all but stationary.
+  [[nodiscard]] Stand polished(double s) const
+  {
+    Stand x = at(s);
+    for (int i = 0; i < 3; ++i)
+    {
+      const Stand next = at(x.s - x.step * x.slope / x.slope_of_slope);
+      if (not(std::abs(next.slope) < std::abs(x.slope)))
+        break;
+      x = next;
+    }
+    return x;
+  }
+
   /// The minimum between chords where the distance falls and rises.
   [[nodiscard]] Stand minimum(Stand from, Stand to) const
   {
@@ -169,28 +183,74 @@ struct Best
   }
 };
 
+/// The distance along a pair's chords as a branch of the quartic of corner.h,
+/// and where on the first edge the lines of both edges meet.
+struct Corner
+{
+  tip::Branch branch;
+  double apex, unit; ///< s = apex + unit · distance from there
+
+  /// What is cut off is a corner with a constant part less, or the other way
+  /// round: that shifts the target.
+  /// @return false if the edges are too near to parallel
+  bool load(const Pair<Geometry::plane>& pair, const Stand& at)
+  {
+    const Point u = pair.before - pair.first, v = pair.behind - pair.last;
+    apex = cross(pair.last - pair.first, v) / cross(u, v);
+    if (not(std::abs(apex) < 1e3))
+      return false;
+    const Point o = pair.first + apex * u;
+    const Point a = at.chord.a - o, b = at.chord.b - o;
+    const double s = std::sqrt(dot(a, a)), t = std::sqrt(dot(b, b));
+    const double area = 0.5 * cross(b, a); // > 0: the apex is cut off
+    const Point p = a + b - (3 * pair.volume / area) * at.off;
+    branch = {1, 1, dot(a, p) / s, dot(b, p) / t, s * t};
+    unit = std::copysign(1 / std::sqrt(dot(u, u)), at.s - apex);
+    return s > 0 and t > 0;
+  }
+};
+
 /// Minima between two chords of a pair of edges.
 template <Geometry G>
 void look(const Pair<G>& pair, const Stand& from, const Stand& to, Best& best,
           int depth = 0)
 {
   best.take(to);
+  if (not(from.s > to.s))
+    return;
+  if constexpr (G == Geometry::plane)
+    if (Corner corner; corner.load(pair, from))
+    {
+      if (not corner.branch.folds())
+      {
+        // One root, if any: the signs at the ends tell.
+        if (from.slope <= 0 and to.slope >= 0)
+          best.take(pair.minimum(from, to));
+        return;
+      }
+      const tip::Branch& b = corner.branch;
+      for (const double r : {b.largest(), b.fraction / b.mirrored().largest()})
+      {
+        const double s = corner.apex + corner.unit * r;
+        if (s < from.s and s > to.s)
+          best.take(pair.polished(s));
+      }
+      return;
+    }
+  // Turns of at most a twentieth of the circle, or the slope's signs at the
+  // ends might not tell all.
+  const Point a = from.chord.b - from.chord.a, b = to.chord.b - to.chord.a;
+  const double with = dot(a, b);
+  if (depth < 6
+      and not(with > 0 and with * with >= 0.9 * dot(a, a) * dot(b, b)))
+    if (const double s = pair.between(from.s, to.s); s < from.s and s > to.s)
+    {
+      const Stand mid = pair.at(s);
+      look(pair, from, mid, best, depth + 1);
+      return look(pair, mid, to, best, depth + 1);
+    }
   if (from.slope <= 0 and to.slope >= 0)
     best.take(pair.minimum(from, to));
-  if (depth == 2 or not(from.s > to.s))
-    return;
-  // A fold: the slope's sign at the ends does not tell all.
-  const bool fold = from.slope_of_slope < 0 or to.slope_of_slope < 0;
-  if (depth > 0 and not fold)
-    return;
-  const double s = pair.between(from.s, to.s);
-  if (not(s < from.s and s > to.s))
-    return;
-  const Stand mid = pair.at(s);
-  if (not fold and not(mid.slope_of_slope < 0))
-    return;
-  look(pair, from, mid, best, depth + 1);
-  look(pair, mid, to, best, depth + 1);
 }
 
 /// The nearest centroid to the left of a chord.
