@@ -13,6 +13,7 @@
 
 #include "remap/interfaces/corner.h"
 #include "remap/interfaces/placement.h"
+#include "remap/interfaces/sort.h"
 
 namespace remap
 {
@@ -113,20 +114,6 @@ struct Pair
                                                            : 0.5 * (s + r);
   }
 
-  /// A few Newton steps from a chord that is all but stationary.
-  [[nodiscard]] Stand polished(double s) const
-  {
-    Stand x = at(s);
-    for (int i = 0; i < 3; ++i)
-    {
-      const Stand next = at(x.s - x.step * x.slope / x.slope_of_slope);
-      if (not(std::abs(next.slope) < std::abs(x.slope)))
-        break;
-      x = next;
-    }
-    return x;
-  }
-
   /// The minimum between chords where the distance falls and rises.
   [[nodiscard]] Stand minimum(Stand from, Stand to) const
   {
@@ -183,8 +170,17 @@ struct Best
   }
 };
 
+/// Mean radius of a chord, as if all were there: what the plane's formulas
+/// take.
+template <Geometry G>
+double weight(const Pair<G>& pair, const Chord& c)
+{
+  return G == Geometry::plane ? 1 : pair.radius + 0.5 * (c.a.x + c.b.x);
+}
+
 /// The distance along a pair's chords as a branch of the quartic of corner.h,
-/// and where on the first edge the lines of both edges meet.
+/// and where on the first edge the lines of both edges meet. In axisymmetry as
+/// if all were at the radius of the chord.
 struct Corner
 {
   tip::Branch branch;
@@ -193,22 +189,80 @@ struct Corner
   /// What is cut off is a corner with a constant part less, or the other way
   /// round: that shifts the target.
   /// @return false if the edges are too near to parallel
-  bool load(const Pair<Geometry::plane>& pair, const Stand& at)
+  template <Geometry G>
+  bool load(const Pair<G>& pair, const Stand& at)
   {
     const Point u = pair.before - pair.first, v = pair.behind - pair.last;
     apex = cross(pair.last - pair.first, v) / cross(u, v);
-    if (not(std::abs(apex) < 1e3))
+    if (not(std::abs(apex) < 1e5))
       return false;
     const Point o = pair.first + apex * u;
     const Point a = at.chord.a - o, b = at.chord.b - o;
     const double s = std::sqrt(dot(a, a)), t = std::sqrt(dot(b, b));
-    const double area = 0.5 * cross(b, a); // > 0: the apex is cut off
-    const Point p = a + b - (3 * pair.volume / area) * at.off;
+    // > 0: the apex is cut off
+    const double volume = 0.5 * cross(b, a) * weight(pair, at.chord);
+    const Point p = a + b - (3 * pair.volume / volume) * at.off;
     branch = {1, 1, dot(a, p) / s, dot(b, p) / t, s * t};
     unit = std::copysign(1 / std::sqrt(dot(u, u)), at.s - apex);
-    return s > 0 and t > 0;
+    return s > 0 and t > 0 and (at.s - apex) * (at.s - apex) > 0;
   }
 };
+
+/// Chords between which the slope rises all the way, or falls: for parallel
+/// edges, where it is a cubic in s.
+/// @return how many
+template <Geometry G>
+int bends(const Pair<G>& pair, const Stand& at, double* s)
+{
+  const Point u = pair.before - pair.first, w = at.chord.b - at.chord.a;
+  const double q = -cross(w, u) * weight(pair, at.chord) / (6 * pair.volume);
+  const double uu = dot(u, u), wu = dot(w, u);
+  const double d =
+      wu * wu - 2.0 / 3 * uu * (dot(w, w) - 2 * dot(u, at.off) / q);
+  if (not(d > 0))
+    return 0;
+  s[0] = at.s + 0.5 * (wu + std::sqrt(d)) / uu;
+  s[1] = at.s + 0.5 * (wu - std::sqrt(d)) / uu;
+  return 2;
+}
+
+/// Minima between chords of a pair of edges, by the slope's signs at both and
+/// at some places between.
+template <Geometry G>
+void look_between(const Pair<G>& pair, Stand from, const Stand& to,
+                  const double* s, int num, Best& best)
+{
+  for (int i = 0; i <= num; ++i)
+  {
+    if (i < num and not(s[i] < from.s and s[i] > to.s))
+      continue;
+    const Stand next = i < num ? pair.at(s[i]) : to;
+    best.take(next);
+    if (from.slope <= 0 and next.slope >= 0)
+      best.take(pair.minimum(from, next));
+    from = next;
+  }
+}
+
+/// Where to look between two chords, so that signs of the slope tell all: if
+/// the distance folds, seen from a chord on the way, where it should be
+/// stationary.
+template <Geometry G>
+int folds(const Pair<G>& pair, const Stand& at, double* s)
+{
+  constexpr double slack = G == Geometry::plane ? 1e-8 : 0.1;
+  Corner corner;
+  if (not corner.load(pair, at))
+    return bends(pair, at, s);
+  if (not corner.branch.folds(slack))
+    return 0;
+  const double far = corner.branch.largest(),
+               near =
+                   corner.branch.fraction / corner.branch.mirrored().largest();
+  for (int i = 0; const double r : {far, std::sqrt(near * far), near})
+    s[i++] = corner.apex + corner.unit * r;
+  return 3 + bends(pair, at, s + 3);
+}
 
 /// Minima between two chords of a pair of edges.
 template <Geometry G>
@@ -218,39 +272,30 @@ void look(const Pair<G>& pair, const Stand& from, const Stand& to, Best& best,
   best.take(to);
   if (not(from.s > to.s))
     return;
-  if constexpr (G == Geometry::plane)
-    if (Corner corner; corner.load(pair, from))
-    {
-      if (not corner.branch.folds())
+  if constexpr (G == Geometry::axisymmetric)
+  {
+    // Turns of at most a twentieth of the circle, where the weight does not
+    // change too much.
+    const Point a = from.chord.b - from.chord.a, b = to.chord.b - to.chord.a;
+    const double with = dot(a, b);
+    if (depth < 4
+        and not(with > 0 and with * with >= 0.9 * dot(a, a) * dot(b, b)))
+      if (const double x = pair.between(from.s, to.s); x < from.s and x > to.s)
       {
-        // One root, if any: the signs at the ends tell.
-        if (from.slope <= 0 and to.slope >= 0)
-          best.take(pair.minimum(from, to));
-        return;
+        const Stand mid = pair.at(x);
+        look(pair, from, mid, best, depth + 1);
+        return look(pair, mid, to, best, depth + 1);
       }
-      const tip::Branch& b = corner.branch;
-      for (const double r : {b.largest(), b.fraction / b.mirrored().largest()})
-      {
-        const double s = corner.apex + corner.unit * r;
-        if (s < from.s and s > to.s)
-          best.take(pair.polished(s));
-      }
-      return;
-    }
-  // Turns of at most a twentieth of the circle, or the slope's signs at the
-  // ends might not tell all.
-  const Point a = from.chord.b - from.chord.a, b = to.chord.b - to.chord.a;
-  const double with = dot(a, b);
-  if (depth < 6
-      and not(with > 0 and with * with >= 0.9 * dot(a, a) * dot(b, b)))
-    if (const double s = pair.between(from.s, to.s); s < from.s and s > to.s)
-    {
-      const Stand mid = pair.at(s);
-      look(pair, from, mid, best, depth + 1);
-      return look(pair, mid, to, best, depth + 1);
-    }
-  if (from.slope <= 0 and to.slope >= 0)
-    best.take(pair.minimum(from, to));
+  }
+  double s[8];
+  int num = 0;
+  const double x = pair.between(from.s, to.s);
+  if (not(x < from.s and x > to.s))
+    return;
+  s[num++] = x;
+  num += folds(pair, pair.at(x), s + num);
+  sort_few(s, num, [](double a, double b) { return a > b; });
+  look_between(pair, from, to, s, num, best);
 }
 
 /// The nearest centroid to the left of a chord.
