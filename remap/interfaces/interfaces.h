@@ -52,11 +52,13 @@ public:
 private:
   template <Geometry G, class Method>
   void cells(std::span<const double> x, const Materials& materials);
+  template <Geometry G, class Method>
+  void sweep(std::span<const double> x, const Materials& materials);
   void fill_ghosts(const Materials& materials, const Host& host);
 
   const Mesh* _mesh;
   InterfaceOptions _options;
-  std::vector<Partition> _partitions;
+  std::vector<Partition> _partitions, _last;
   Stencil _stencil;
   std::vector<double> _halo; // cuts of all cells, for methods that look around
 };

@@ -5,12 +5,15 @@
 #pragma once
 
 #include "remap/choice.h"
+#include "remap/interfaces/lvira.h"
 #include "remap/interfaces/moment_of_fluid.h"
+#include "remap/interfaces/swartz.h"
 #include "remap/interfaces/youngs.h"
 
 namespace remap
 {
 using Reconstructions =
-    std::tuple<reconstruction::MomentOfFluid, reconstruction::Youngs>;
+    std::tuple<reconstruction::MomentOfFluid, reconstruction::Lvira,
+               reconstruction::Swartz, reconstruction::Youngs>;
 using Reconstruction = Choice<Reconstructions>;
 } // namespace remap

@@ -91,17 +91,10 @@ private:
 
   struct Found
   {
-    double error = none; ///< on the way in: an upper bound
+    bool is = false;
+    double error = none; ///< while there is none: an upper bound
     int leaf = 0;        ///< the part, without a cut
     Partition tree;
-
-    void copy(const Found& from)
-    {
-      error = from.error;
-      leaf = from.leaf;
-      tree.count = 0;
-      append(from.tree, 0, tree);
-    }
   };
   struct Way
   {
@@ -165,6 +158,7 @@ private:
       const double error = _parts[part].fraction * dot(off, off);
       if (error < best.error)
       {
+        best.is = true;
         best.error = error;
         best.leaf = _names[part];
         best.tree.count = 0;
@@ -197,12 +191,13 @@ private:
     Found left, right;
     left.error = best.error;
     divide(in, way.in, left);
-    if (not(left.error < best.error))
+    if (not left.is)
       return;
     right.error = best.error - left.error;
     divide(out, parts & ~way.in, right);
-    if (not(left.error + right.error < best.error))
+    if (not right.is or not(left.error + right.error < best.error))
       return;
+    best.is = true;
     best.error = left.error + right.error;
     best.tree.count = 0;
     const int root = best.tree.add({.plane = way.plane});
