@@ -289,9 +289,12 @@ private:
     _out.parts[static_cast<std::size_t>(c)] =
         polygon::shifted({part.v, part.v * g.x, part.v * g.y}, o);
     _out.mixed.push_back(c);
-    if (_wants_pieces)
-      trapezoids(_kept,
-                 [&](std::span<const Point> piece) { keep(c, piece, o); });
+    if (not _wants_pieces)
+      return;
+    // Smaller ones could turn over when they are put in their place.
+    const double far = std::max(std::abs(o.x), std::abs(o.y)) + reach;
+    trapezoids(_kept, 4 * std::numeric_limits<double>::epsilon() * far * size,
+               [&](std::span<const Point> piece) { keep(c, piece, o); });
   }
 
   /// `_ring` cut by a half-plane.

@@ -50,12 +50,13 @@ void Pen::close()
 }
 
 /// Chords of a curve over t in [0, 1] with this bound of its second derivative:
-/// none is farther from it than second / (8 n²).
+/// none is farther from it than second / (8 n²). A few at least: then the box
+/// around them tells the size of the drawing, whatever the tolerance.
 int Pen::chords(double second) const
 {
-  constexpr double most = 1e5;
+  constexpr double least = 8, most = 1e5;
   const double n = std::ceil(std::sqrt(second / (8 * _tolerance)));
-  return static_cast<int>(std::clamp(n, 1.0, most));
+  return static_cast<int>(std::clamp(n, least, most));
 }
 
 void Pen::quadratic(Point c, Point p, int line)

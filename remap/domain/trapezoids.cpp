@@ -58,6 +58,7 @@ std::vector<Edge> edges_of(std::span<const Ring> rings,
 }
 
 void close(const Open& open, double to, const std::vector<Edge>& edges,
+           double least,
            const std::function<void(std::span<const Point>)>& emit)
 {
   const Edge &left = edges[open.left], &right = edges[open.right];
@@ -75,12 +76,12 @@ void close(const Open& open, double to, const std::vector<Edge>& edges,
   double area = 0;
   for (std::size_t i = 1; i + 1 < n; ++i)
     area += twice_area(piece[0], piece[i], piece[i + 1]);
-  if (n >= 3 and area > 0)
+  if (n >= 3 and area > 2 * least)
     emit(std::span(piece).first(n));
 }
 } // namespace
 
-void trapezoids(std::span<const Ring> rings,
+void trapezoids(std::span<const Ring> rings, double least,
                 const std::function<void(std::span<const Point>)>& emit)
 {
   std::vector<double> heights;
@@ -125,10 +126,10 @@ void trapezoids(std::span<const Ring> rings,
         }
     for (const Open& o : open)
       if (not o.goes_on)
-        close(o, from, edges, emit);
+        close(o, from, edges, least, emit);
     open = std::move(next);
   }
   for (const Open& o : open)
-    close(o, heights.back(), edges, emit);
+    close(o, heights.back(), edges, least, emit);
 }
 } // namespace remap

@@ -14,7 +14,8 @@
 namespace remap
 {
 /// @param[in] rings what is inside they run around counter-clockwise
+/// @param[in] least area of a piece that is worth having [m2], >= 0
 /// @param[in] emit  called for each piece, 3 or 4 vertices, counter-clockwise
-void trapezoids(std::span<const Ring> rings,
+void trapezoids(std::span<const Ring> rings, double least,
                 const std::function<void(std::span<const Point>)>& emit);
 } // namespace remap
