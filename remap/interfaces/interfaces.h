@@ -52,6 +52,11 @@ public:
   {
     return _partitions[row];
   }
+  /// Those of all rows, maybe with some behind that mean nothing.
+  [[nodiscard]] std::span<const Partition> partitions() const
+  {
+    return _partitions;
+  }
 
   [[nodiscard]] const InterfaceReport& report() const { return _report; }
 
