@@ -51,8 +51,8 @@ Remapper::Remapper(const Mesh& mesh, Options options)
   const auto nodes = static_cast<std::size_t>(mesh.num_nodes());
   const bool mixed = o.materials.number > 0;
   _cells.reserve(mesh, sides, o.per_mass or mixed,
-                 widest_block(std::max(
-                     o.cell_components, mixed ? o.materials.components : 0)));
+                 widest_block(std::max(o.cell_components,
+                                       mixed ? o.materials.components : 0)));
   if (mixed)
     _materials = std::make_unique<MaterialTransport>(
         mesh, _cells, o.geometry, o.materials, _options.boundaries);
@@ -127,8 +127,7 @@ bool Remapper::sizes_fit(std::span<const double> x_old,
                      o.point_components)
          and all_fit(fields.nodes, _mesh->num_nodes(), o.nodal_components)
          and all_fit(fields.per_mass, _mesh->num_nodes(), o.nodal_components)
-         and (not fields.materials
-              or (_materials and _materials->fits(fields)))
+         and (not fields.materials or (_materials and _materials->fits(fields)))
          and (fields.materials or fields.of_materials.empty())
          and (fields.per_mass.empty() or not mixture(fields)
               or (o.per_mass and fields.materials
@@ -355,7 +354,7 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
   repair<G>(fields, host);
   if (fields.materials)
   {
-    _materials->count_slivers(host);
+    _materials->count(host);
     _report.materials = _materials->report();
   }
   settle(fields, host, ledger);
@@ -469,6 +468,9 @@ Outcome Remapper::remap(std::span<const double> x_old,
     return Outcome::bad_materials;
   if (_materials)
     _materials->start(fields);
+  if (_masses and mixture(fields))
+    for (std::int32_t c = 0; c < _mesh->num_cells(); ++c)
+      _mixture[c] = _materials->mixture(c);
   std::size_t entries = 2;
   for (const auto& list :
        {fields.cells, fields.points, fields.nodes, fields.per_mass})

@@ -187,10 +187,10 @@ private:
   std::unique_ptr<Points> _points;
   std::unique_ptr<MaterialTransport> _materials;
   std::vector<double> _mixture; // density of cells, if materials make it
-  bool _dual = false;   // are there nodal fields in this call?
-  bool _masses = false; // are there fields per mass?
-  bool _fine = false;   // are there fields at points?
-  Amounts _amounts;     // of the density
+  bool _dual = false;           // are there nodal fields in this call?
+  bool _masses = false;         // are there fields per mass?
+  bool _fine = false;           // are there fields at points?
+  Amounts _amounts;             // of the density
   std::span<const double> _x_old, _x_new;
   std::vector<double> _x, _y;             // before and after a sub-cycle
   std::vector<std::uint8_t> _moved;       // per node

@@ -40,11 +40,11 @@ void Remapper::carry_masses(const Fields& fields, std::size_t entry,
   _cells.split(_x, _y, _amounts.inner, _amounts.outer, _nodes.passing);
   std::span<const double> rho = _mixture;
   if (mixture(fields))
-    _materials->mix(_cells.touched, _mixture);
+    for (std::int32_t c : _cells.touched)
+      _mixture[c] = _materials->mixture(c);
   else
     rho = fields.cells[fields.density].values;
-  _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(), rho, _x, _y,
-                       host);
+  _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(), rho, _x, _y, host);
   _nodes.exchange_masses<G>(_cells.touched, _moved, _x, _y);
   _report.mass_loss =
       std::max(_report.mass_loss, host.max(_nodes.largest_loss()));
@@ -82,15 +82,15 @@ void Remapper::carry(const Fields& fields, const Host& host)
   if (_dual)
     book_volume(_nodes, _book[1]);
   if (_masses)
-    _nodes.keep_density<G>(
-        _cells.touched,
-        mixture(fields) ? std::span<const double>(_mixture)
-                        : fields.cells[fields.density].values,
-        _x);
+    _nodes.keep_density<G>(_cells.touched,
+                           mixture(fields)
+                               ? std::span<const double>(_mixture)
+                               : fields.cells[fields.density].values,
+                           _x);
   const Options& o = _options;
-  std::size_t entry
-      = carry_all(_cells, fields.cells, o.scheme, _cell_halo, host, 2,
-                  _masses and not mixture(fields) ? fields.density : -1);
+  std::size_t entry =
+      carry_all(_cells, fields.cells, o.scheme, _cell_halo, host, 2,
+                _masses and not mixture(fields) ? fields.density : -1);
   if (_fine)
     entry = carry_all(_points->volumes, fields.points, o.scheme, _point_halo,
                       host, entry);

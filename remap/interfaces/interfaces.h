@@ -30,7 +30,8 @@ public:
   Interfaces(const Mesh& mesh, InterfaceOptions options);
 
   /// Reconstruct all mixed cells, ghosts too; collective. Fractions (to
-  /// round-off) are those of `materials`.
+  /// round-off) are those of `materials`. Nothing is allocated unless there are
+  /// more mixed cells than ever before.
   ///
   /// @param[in] x         shape (num_nodes, 2), ghosts up to date [m]
   /// @param[in] materials ghosts up to date
@@ -44,8 +45,14 @@ public:
   }
 
 private:
+  template <Geometry G, class Method>
+  void cells(std::span<const double> x, const Materials& materials);
+  void fill_ghosts(const Materials& materials, const Host& host);
+
   const Mesh* _mesh;
   InterfaceOptions _options;
   std::vector<Partition> _partitions;
+  Stencil _stencil;
+  std::vector<double> _halo; // cuts of all cells, for methods that look around
 };
 } // namespace remap

@@ -68,8 +68,8 @@ void MaterialTransport::share_piece(std::int32_t p, std::int32_t c,
       largest = k;
   const auto give = [&](std::size_t k, bool first, double volume, Point place)
   {
-    const std::int32_t slot
-        = _materials->first_slot(row) + static_cast<std::int32_t>(k);
+    const std::int32_t slot =
+        _materials->first_slot(row) + static_cast<std::int32_t>(k);
     if (p >= 0)
       share(p, slot, slot_for(d, of[k].material), first, volume, place);
     else
@@ -216,8 +216,7 @@ void MaterialTransport::cut_overlaid(std::span<const double> x,
       for (std::size_t i = 0; i < of.size(); ++i)
       {
         const double v = of[i].fraction * _cv->volume[c];
-        const Moments m = Moments{v, v * of[i].centroid.x,
-                                  v * of[i].centroid.y}
+        const Moments m = Moments{v, v * of[i].centroid.x, v * of[i].centroid.y}
                           - _left[row][i];
         if (m.v > 0)
           parts[i] = m;
@@ -230,8 +229,8 @@ void MaterialTransport::cut_overlaid(std::span<const double> x,
 /// Make room for slots.
 void MaterialTransport::grow()
 {
-  const auto num = _materials->num_slots()
-                   + static_cast<std::int32_t>(_newcomers.size());
+  const auto num =
+      _materials->num_slots() + static_cast<std::int32_t>(_newcomers.size());
   _cv->hold(num);
   _cv->cell_of_part.resize(num - _cv->first_part);
   _kinds.resize(num);
@@ -278,8 +277,8 @@ void MaterialTransport::set_newcomers()
     set_slot(slot++, n.cell, n.material, 0, _cv->centroid[n.cell]);
   _moment.resize(_cv->num - _cv->first_part);
   for (std::int32_t s = _cv->first_part; s < _cv->num; ++s)
-    _moment[s - _cv->first_part]
-        = _cv->volume[s] * (_cv->centroid[s] - _cv->centroid[cell_of(s)]);
+    _moment[s - _cv->first_part] =
+        _cv->volume[s] * (_cv->centroid[s] - _cv->centroid[cell_of(s)]);
 }
 
 /// No part gives more than it has: a scale for what it gives, and its share in
@@ -305,10 +304,10 @@ void MaterialTransport::cap(const Host& host)
     if (_materials->mixed()[r] >= cv.owned)
       continue;
     const std::int32_t first = begin(r);
-    const auto last = first
-                      + static_cast<std::int32_t>(
-                          _materials->parts(static_cast<std::int32_t>(r))
-                              .size());
+    const auto last =
+        first
+        + static_cast<std::int32_t>(
+            _materials->parts(static_cast<std::int32_t>(r)).size());
     double missing = 0, room = 0;
     for (std::int32_t s = first; s < last; ++s)
     {
@@ -325,8 +324,8 @@ void MaterialTransport::cap(const Host& host)
       const double gives = out[s - cv.first_part];
       // What is given is stored as what is taken away: 0 where nothing is.
       _caps[std::size_t(2) * s] = over(s) ? 1 - cv.volume[s] / gives : 0;
-      _caps[std::size_t(2) * s + 1]
-          = over(s) or not(room > 0) ? 0 : (cv.volume[s] - gives) / room;
+      _caps[std::size_t(2) * s + 1] =
+          over(s) or not(room > 0) ? 0 : (cv.volume[s] - gives) / room;
       if (over(s) and gives > (1 + 1e-12) * cv.volume[s])
         ++sums[0];
     }
@@ -430,8 +429,8 @@ void MaterialTransport::write_shares()
   {
     const std::int32_t slot = cv.touched[i];
     const double rest = cv.volume[slot] - cv.leaving[slot];
-    cv.remains[slot]
-        = (rest > 1e-12 * cv.volume[slot] ? 1 / rest : 0.0) * cv.remains[slot];
+    cv.remains[slot] =
+        (rest > 1e-12 * cv.volume[slot] ? 1 / rest : 0.0) * cv.remains[slot];
   }
   // What newcomers take of a pure cell.
   _guests_next.clear();
@@ -446,7 +445,7 @@ void MaterialTransport::write_shares()
 /// Neighbours of the slots at interfaces.
 void MaterialTransport::find_rows(std::span<const double> x)
 {
-  ControlVolumes& cv = *_cv;
+  CellVolumes& cv = *_cv;
   const Materials& m = *_materials;
   _rows.reset(cv.num);
   const bool sides = cv.across.size() > 0;
@@ -490,7 +489,7 @@ void MaterialTransport::find_rows(std::span<const double> x)
 /// Cells again as they were before.
 void MaterialTransport::restore()
 {
-  ControlVolumes& cv = *_cv;
+  CellVolumes& cv = *_cv;
   for (const Saved& s : _saved)
   {
     Pieces& pieces = s.piece < 0 ? cv.outer : cv.inner;
@@ -522,7 +521,7 @@ void MaterialTransport::open(std::span<const double> x,
                              std::span<const double> y, const Overlay* overlay,
                              const Host& host)
 {
-  ControlVolumes& cv = *_cv;
+  CellVolumes& cv = *_cv;
   _inner = cv.inner.count;
   _outer = cv.outer.count;
   _touched = cv.touched.size();
@@ -546,9 +545,11 @@ void MaterialTransport::open(std::span<const double> x,
   cv.kinds.swap(_kinds);
 }
 
-template void MaterialTransport::open<Geometry::plane>(
-    std::span<const double>, std::span<const double>, const Overlay*,
-    const Host&);
-template void MaterialTransport::open<Geometry::axisymmetric>(
-    std::span<const double>, std::span<const double>, const Overlay*,
-    const Host&);
+template void MaterialTransport::open<Geometry::plane>(std::span<const double>,
+                                                       std::span<const double>,
+                                                       const Overlay*,
+                                                       const Host&);
+template void
+MaterialTransport::open<Geometry::axisymmetric>(std::span<const double>,
+                                                std::span<const double>,
+                                                const Overlay*, const Host&);

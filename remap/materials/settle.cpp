@@ -49,9 +49,8 @@ void MaterialTransport::update(std::span<double> values, int block,
   const Materials& m = *_materials;
   double most = 0;
   for (std::size_t r = 0; r < m.mixed().size(); ++r)
-    most = std::max(
-        most,
-        static_cast<double>(m.parts(static_cast<std::int32_t>(r)).size()));
+    most = std::max(most, static_cast<double>(
+                              m.parts(static_cast<std::int32_t>(r)).size()));
   const auto parts = static_cast<std::size_t>(host.max(most));
   _sent.resize(cells * width);
   for (std::size_t k = 0; k < parts; ++k)
@@ -62,9 +61,8 @@ void MaterialTransport::update(std::span<double> values, int block,
         const auto row = static_cast<std::int32_t>(r);
         if (k >= m.parts(row).size())
           continue;
-        double* slot
-            = &values[width
-                      * (static_cast<std::size_t>(m.first_slot(row)) + k)];
+        double* slot =
+            &values[width * (static_cast<std::size_t>(m.first_slot(row)) + k)];
         double* cell = &_sent[width * static_cast<std::size_t>(m.mixed()[r])];
         if (out)
           std::copy_n(slot, width, cell);
@@ -86,11 +84,10 @@ void MaterialTransport::collect_cell(std::int32_t c, std::span<const double> y)
   const Point from = cv.centroid[c];
   const std::size_t begin = _entries.size();
   double sum = 0, whole = 0;
-  const auto add
-      = [&](std::int32_t slot, std::int32_t material, double v, Point moment)
+  const auto add =
+      [&](std::int32_t slot, std::int32_t material, double v, Point moment)
   {
-    _entries.push_back(
-        {c, slot, {material, v, from + (1 / v) * moment}});
+    _entries.push_back({c, slot, {material, v, from + (1 / v) * moment}});
     whole += std::max(v, 0.0);
   };
   const std::int32_t row = _materials->row(c);
@@ -249,10 +246,10 @@ void MaterialTransport::assign()
       m.set_pure(c, parts[0].material);
     else
       m.add_row(c, std::span(parts.data(), size));
-    const std::int32_t slot
-        = size == 1 ? c
-                    : m.first_slot(static_cast<std::int32_t>(
-                          m.mixed().size() - 1));
+    const std::int32_t slot =
+        size == 1
+            ? c
+            : m.first_slot(static_cast<std::int32_t>(m.mixed().size() - 1));
     for (std::size_t k = 0; k < size; ++k)
       target[i + k] = slot + static_cast<std::int32_t>(k);
     i += size;

@@ -46,8 +46,7 @@ public:
   {
     const auto begin = static_cast<std::int32_t>(_entries.size());
     for (std::int32_t d : (*_cells)[cell])
-      if (const std::int32_t s = materials.slot(d, material);
-          s >= 0 and use(s))
+      if (const std::int32_t s = materials.slot(d, material); s >= 0 and use(s))
         _entries.push_back(s);
     _bounds[slot] = {begin, static_cast<std::int32_t>(_entries.size())};
     if (slot < _cells->size())
@@ -75,8 +74,7 @@ private:
 class NearCells
 {
 public:
-  explicit NearCells(const Mesh& mesh)
-      : _mesh(&mesh), _cell(mesh.num_cells())
+  explicit NearCells(const Mesh& mesh) : _mesh(&mesh), _cell(mesh.num_cells())
   {
   }
 
@@ -88,8 +86,8 @@ public:
     for (std::int32_t i = 0; i < _mesh->num_nodes(); ++i)
     {
       const auto around = _mesh->node_cells()[i];
-      const std::int32_t first
-          = around.empty() ? -1 : materials.pure(around[0]);
+      const std::int32_t first =
+          around.empty() ? -1 : materials.pure(around[0]);
       bool same = first >= 0;
       for (std::int32_t c : around)
         same &= materials.pure(c) == first;

@@ -49,9 +49,9 @@ MaterialTransport::MaterialTransport(const Mesh& mesh, CellVolumes& cells,
 
 bool MaterialTransport::fits(const Fields& fields) const
 {
-  const bool any_open
-      = std::find(_boundaries.begin(), _boundaries.end(), Boundary::open)
-        != _boundaries.end();
+  const bool any_open =
+      std::find(_boundaries.begin(), _boundaries.end(), Boundary::open)
+      != _boundaries.end();
   const Materials& m = *fields.materials;
   if (m.num_cells() != _mesh->num_cells()
       or m.num_materials() != _options.number
@@ -127,6 +127,7 @@ void MaterialTransport::start(const Fields& fields)
   _fields = fields.of_materials;
   _density = fields.material_density;
   _report = {};
+  _swept_number = _swept_volume = 0;
   if (not _materials)
     return;
   const Materials& m = *_materials;
@@ -165,8 +166,8 @@ void MaterialTransport::book_volumes(std::span<Exchange> book) const
     const std::int32_t own = in ? cv.outer.to[p] : cv.outer.from[p];
     const Boundary kind = kind_of(_boundaries, cv.marker[p]);
     if (cv.ours(own))
-      book[cv.kind(own)][std::size_t(way(kind, in))]
-          += in ? cv.outer.volume[p] : -cv.outer.volume[p];
+      book[cv.kind(own)][std::size_t(way(kind, in))] +=
+          in ? cv.outer.volume[p] : -cv.outer.volume[p];
   }
 }
 
@@ -182,15 +183,13 @@ void MaterialTransport::widen_fields()
       if (s.to >= first)
         for (std::size_t k = 0; k < n; ++k)
         {
-          double& value
-              = field.values[n * static_cast<std::size_t>(s.to) + k];
+          double& value = field.values[n * static_cast<std::size_t>(s.to) + k];
           if (s.from >= 0)
             value = field.values[n * static_cast<std::size_t>(s.from) + k];
           else if (not field.inflow.empty())
-            value = field.inflow[n
-                                     * static_cast<std::size_t>(
-                                         _cv->marker[~s.piece])
-                                 + k];
+            value =
+                field.inflow[n * static_cast<std::size_t>(_cv->marker[~s.piece])
+                             + k];
         }
   }
 }
@@ -236,6 +235,7 @@ void MaterialTransport::carry(std::span<const double> x,
   assign();
   for (const MaterialField& field : _fields)
     update(field.values, field.components, host);
+  sweep_slivers(_cv->next, host);
 }
 
 /// What pieces of slots take, for the pieces of cells they are parts of.
@@ -247,21 +247,18 @@ void MaterialTransport::add_up(Amounts& amounts) const
     amounts.outer[_outer_parent[k]] += amounts.outer[_outer + k];
 }
 
-void MaterialTransport::mix(std::span<const std::int32_t> cells,
-                            std::span<double> rho) const
+double MaterialTransport::mixture(std::int32_t c) const
 {
   const Materials& m = *_materials;
   const std::vector<double>& values = _fields[_density].values;
-  for (std::int32_t c : cells)
-  {
-    const std::int32_t row = m.row(c);
-    rho[c] = row < 0 ? values[c] : 0;
-    if (row < 0)
-      continue;
-    std::int32_t slot = m.first_slot(row);
-    for (const Part& part : m.parts(row))
-      rho[c] += part.fraction * values[slot++];
-  }
+  const std::int32_t row = m.row(c);
+  if (row < 0)
+    return values[c];
+  std::int32_t slot = m.first_slot(row);
+  double rho = 0;
+  for (const Part& part : m.parts(row))
+    rho += part.fraction * values[slot++];
+  return rho;
 }
 
 template void MaterialTransport::carry<Geometry::plane>(

@@ -56,13 +56,13 @@ public:
              const Overlay* overlay, const Scheme& scheme, const Host& host,
              Amounts* amounts, std::span<Exchange> book);
 
-  /// Density of the cells as mixtures.
-  void mix(std::span<const std::int32_t> cells, std::span<double> rho) const;
+  /// Density of a cell as a mixture.
+  [[nodiscard]] double mixture(std::int32_t c) const;
   /// Mass that sliver sweeping moved in the last sub-cycle.
   [[nodiscard]] std::span<const Jump> jumps() const { return _jumps; }
   [[nodiscard]] const MaterialReport& report() const { return _report; }
-  /// After the last sub-cycle: what is still a sliver.
-  void count_slivers(const Host& host);
+  /// After the last sub-cycle: add up the report.
+  void count(const Host& host);
 
 private:
   /// What one slot gives to another: a piece, or a part of one.
@@ -148,11 +148,12 @@ private:
   void keep_row(std::int32_t row);
 
   // slivers.cpp
-  template <Geometry G>
-  void sweep_slivers(std::span<const double> y, const Host& host);
-  void choose(const Host& host);
-  template <Geometry G>
-  void swap_parcels(std::span<const double> y);
+  void sweep_slivers(std::span<const double> volume, const Host& host);
+  [[nodiscard]] bool choose(std::span<const double> volume);
+  void collect_parcels(std::span<const double> volume);
+  void send(std::int32_t from, std::int32_t to, double v);
+  void note_jump(std::int32_t c, std::int32_t d, double mass);
+  void deliver(std::span<const double> volume);
 
   [[nodiscard]] std::int32_t cell_of(std::int32_t slot) const
   {
@@ -175,9 +176,9 @@ private:
 
   std::vector<std::int32_t> _kinds; // material of each slot
   std::vector<Newcomer> _newcomers;
-  std::vector<std::int32_t> _head;    // first newcomer of each cell, or -1
-  std::vector<std::int32_t> _guests;  // cells with newcomers
-  std::vector<double> _guests_next;   // their volumes after the sub-cycle
+  std::vector<std::int32_t> _head;   // first newcomer of each cell, or -1
+  std::vector<std::int32_t> _guests; // cells with newcomers
+  std::vector<double> _guests_next;  // their volumes after the sub-cycle
   std::vector<Share> _shares;
   std::vector<Saved> _saved;
   std::vector<ByPart> _left; // of each row: what an overlay took
@@ -192,5 +193,6 @@ private:
   std::vector<Parcel> _parcels;
   std::vector<double> _parcel_values;
   std::vector<Jump> _jumps;
+  double _swept_number = 0, _swept_volume = 0; // slivers of this call
 };
 } // namespace remap

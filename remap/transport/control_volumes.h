@@ -68,10 +68,10 @@ double sliver(Point e, double r)
 /// Geometry and room for a set of volumes.
 struct ControlVolumes
 {
-  std::int32_t num = 0;                  ///< with ghosts
-  std::int32_t owned = 0;                ///< ours, first
-  Rows neighbours; ///< stencil of gradients and bounds
-  Rows beside;     ///< neighbours across a facet
+  std::int32_t num = 0;   ///< with ghosts
+  std::int32_t owned = 0; ///< ours, first
+  Rows neighbours;        ///< stencil of gradients and bounds
+  Rows beside;            ///< neighbours across a facet
 
   /// Volumes behind the cells, if they are parts of them (materials/slots.h):
   /// the cell and the kind of each; a kind of volumes has its own book.

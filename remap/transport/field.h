@@ -63,13 +63,14 @@ struct MaterialField
   /// so are slots of materials that do not have the field.
   std::vector<double>& values;
   int components = 1;
-  int group = 1;                         ///< as `Field`
-  Bound bound = Bound::hull;             ///< as `Field`
-  std::span<const double> weights = {};  ///< as `Field`
-  std::span<const double> inflow = {};   ///< as `Field`
-  std::span<const double> least = {};    ///< as `Field`
-  std::span<const double> most = {};     ///< as `Field`
-  /// Does a material have it? Shape (materials), empty: all have. Void has none.
+  int group = 1;                        ///< as `Field`
+  Bound bound = Bound::hull;            ///< as `Field`
+  std::span<const double> weights = {}; ///< as `Field`
+  std::span<const double> inflow = {};  ///< as `Field`
+  std::span<const double> least = {};   ///< as `Field`
+  std::span<const double> most = {};    ///< as `Field`
+  /// Does a material have it? Shape (materials), empty: all have. Void has
+  /// none.
   std::span<const std::uint8_t> carriers = {};
 };
 

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// METHOD 4: moment of fluid in a convex polygon, plane or axisymmetric, with
+// two parts.
+//
+// A line that keeps the volume to its left turns once around the polygon. It
+// turns about the weighted middle of its chord, so the centroid to its left
+// moves along it, by I₂/V per radian, I₂ the chord's weighted second moment:
+// the squared distance from a place is stationary where the way there from the
+// centroid is normal to the line. Between the lines through vertices the ends
+// stay on two edges, and everything is in closed form.
+#pragma once
+
+#include "remap/interfaces/corner.h"
+#include "remap/interfaces/placement.h"
+
+namespace remap
+{
+namespace turning
+{
+/// Signed volume and first moments of a triangle; x is measured from a radius.
+template <Geometry G>
+inline Moments piece(Point a, Point b, Point c, double radius)
+{
+  const double area = 0.5 * twice_area(a, b, c);
+  const Point s = a + b + c;
+  const Moments plane = {area, area / 3 * s.x, area / 3 * s.y};
+  if constexpr (G == Geometry::plane)
+    return plane;
+  const double xx = a.x * a.x + b.x * b.x + c.x * c.x;
+  const double xy = a.x * a.y + b.x * b.y + c.x * c.y;
+  return {radius * plane.v + plane.x,
+          radius * plane.x + area / 12 * (s.x * s.x + xx),
+          radius * plane.y + area / 12 * (s.x * s.y + xy)};
+}
+
+/// How far from b towards c the triangle (a, b, ·) has a volume, in [0, 1]; the
+/// volume is negative if the triangle is clockwise.
+template <Geometry G>
+inline double share(Point a, Point b, Point c, double radius, double volume)
+{
+  const double twice = twice_area(a, b, c);
+  double t = 2 * volume / twice;
+  if constexpr (G == Geometry::axisymmetric)
+  {
+    // 6 V = twice t (3 radius + a + 2 b + t (c − b)), in x.
+    const double p = 3 * radius + a.x + 2 * b.x, q = c.x - b.x;
+    const double v = 6 * volume / twice;
+    t = 2 * v / (p + std::sqrt(std::max(0.0, p * p + 4 * q * v)));
+  }
+  return t < 1 ? (t > 0 ? t : 0) : 1; // NaN, of 0/0: all of it
+}
+
+/// A chord between two edges, what is cut off, and how the distance changes.
+struct Stand
+{
+  double s = 0;     ///< 1 where the chord starts at its edge's first vertex
+  Chord chord;      ///< from the first edge to the second
+  Point off;        ///< centroid less its target
+  double slope = 0; ///< off along the chord
+  double slope_of_slope = 0; ///< by the angle
+  double step = 0;           ///< change of s per radian
+};
+
+/// All chords from one edge to another: what is cut off is the polygon from
+/// the first chord's end over `first` … `last` to the second end.
+template <Geometry G>
+struct Pair
+{
+  Point before, first, last, behind;
+  Moments core; ///< of the polygon first … last
+  double radius, volume;
+  Point target;
+
+  [[nodiscard]] Stand at(double s) const
+  {
+    Stand out;
+    out.s = s;
+    const Point a = first + s * (before - first);
+    const Moments one = piece<G>(a, first, last, radius);
+    const double t = share<G>(a, last, behind, radius, volume - core.v - one.v);
+    const Point b = last + t * (behind - last);
+    const Moments m = core + one + piece<G>(a, last, b, radius);
+    out.chord = {a, b};
+    out.off = Point{m.x / volume, m.y / volume} - target;
+    const Point way = b - a;
+    const double length = std::sqrt(dot(way, way));
+    const Point along = (1 / length) * way, up = {-along.y, along.x};
+    out.slope = dot(out.off, along);
+    double middle = 0.5 * length, second = length * length * length / 12;
+    if constexpr (G == Geometry::axisymmetric)
+    {
+      const double r0 = radius + a.x, r1 = radius + b.x, r = r0 + r1;
+      const double part = (r0 + 2 * r1) / (3 * r);
+      middle = part * length;
+      second =
+          length * length * length * ((r0 + 3 * r1) / 12 - part * part * r / 2);
+    }
+    out.slope_of_slope = second / volume + dot(out.off, up);
+    out.step = middle / dot(first - before, up);
+    return out;
+  }
+
+  /// Half-way between two chords: where the edges' lines meet at some distance
+  /// the ends' distances from there go like reciprocals.
+  [[nodiscard]] double between(double s, double r) const
+  {
+    const Point u = before - first, v = behind - last;
+    const double apex = cross(last - first, v) / cross(u, v);
+    const double product = (s - apex) * (r - apex);
+    const double mean = apex + std::copysign(std::sqrt(product), s - apex);
+    return mean > std::min(s, r) and mean < std::max(s, r) ? mean
+                                                           : 0.5 * (s + r);
+  }
+
+  /// The minimum between chords where the distance falls and rises.
+  [[nodiscard]] Stand minimum(Stand from, Stand to) const
+  {
+    Stand x = std::abs(from.slope) < std::abs(to.slope) ? from : to;
+    for (int i = 0; i < 100; ++i)
+    {
+      double s = x.s - x.step * x.slope / x.slope_of_slope;
+      // The chord's start runs from s = 1 to 0.
+      if (not(x.slope_of_slope > 0 and s < from.s and s > to.s))
+        s = between(from.s, to.s);
+      const double moved = std::abs(s - x.s);
+      if (not(s < from.s and s > to.s) or moved <= 1e-15 * std::abs(s))
+        break;
+      x = at(s);
+      (x.slope > 0 ? to : from) = x;
+      if (x.slope == 0)
+        break;
+    }
+    return x;
+  }
+};
+
+/// Where the line that starts at vertex i cuts off the volume: edge, and how
+/// far along it.
+template <Geometry G, int N>
+int reach(const Polygon<N>& p, int i, double volume, double radius)
+{
+  const int n = p.size;
+  double left = volume;
+  int j = i + 1 < n ? i + 1 : 0;
+  for (int k = 2; k < n; ++k)
+  {
+    const int next = j + 1 < n ? j + 1 : 0;
+    const double here = piece<G>(p[i], p[j], p[next], radius).v;
+    if (left <= here or k == n - 1)
+      return j;
+    left -= here;
+    j = next;
+  }
+  return j;
+}
+
+/// Nearest of all lines.
+struct Best
+{
+  double distance2 = -1;
+  Chord chord;
+
+  void take(const Stand& s)
+  {
+    const double d = dot(s.off, s.off);
+    if (distance2 < 0 or d < distance2)
+      distance2 = d, chord = s.chord;
+  }
+};
+
+/// Minima between two chords of a pair of edges.
+template <Geometry G>
+void look(const Pair<G>& pair, const Stand& from, const Stand& to, Best& best,
+          int depth = 0)
+{
+  best.take(to);
+  if (from.slope <= 0 and to.slope >= 0)
+    best.take(pair.minimum(from, to));
+  if (depth == 2 or not(from.s > to.s))
+    return;
+  // A fold: the slope's sign at the ends does not tell all.
+  const bool fold = from.slope_of_slope < 0 or to.slope_of_slope < 0;
+  if (depth > 0 and not fold)
+    return;
+  const double s = pair.between(from.s, to.s);
+  if (not(s < from.s and s > to.s))
+    return;
+  const Stand mid = pair.at(s);
+  if (not fold and not(mid.slope_of_slope < 0))
+    return;
+  look(pair, from, mid, best, depth + 1);
+  look(pair, mid, to, best, depth + 1);
+}
+
+/// The nearest centroid to the left of a chord.
+/// @param[in] p      measured from a point at `radius`
+/// @param[in] volume at most about half of all
+template <Geometry G, int N>
+Best nearest(const Polygon<N>& p, double volume, Point target, double radius)
+{
+  const int n = p.size;
+  Best best;
+  int j = reach<G>(p, 0, volume, radius);
+  const int start = j;
+  for (int i = 0; i < n; ++i)
+  {
+    const int first = i + 1 < n ? i + 1 : 0;
+    const int end = first == 0 ? start : reach<G>(p, first, volume, radius);
+    double s = 1;
+    // The far end passes vertices while the near end walks along edge i.
+    for (int k = 0; k < n; ++k)
+    {
+      const int behind = j + 1 < n ? j + 1 : 0;
+      Pair<G> pair = {p[i], p[first], p[j],   p[behind],
+                      {},   radius,   volume, target};
+      for (int c = first; c != j;)
+      {
+        const int next = c + 1 < n ? c + 1 : 0;
+        if (c != first)
+          pair.core += piece<G>(p[first], p[c], p[next], radius);
+        c = next;
+      }
+      double to = 0;
+      if (j != end)
+      {
+        // Where the far end is at `behind`.
+        const Moments more =
+            pair.core
+            + (j == first ? Moments{}
+                          : piece<G>(p[first], p[j], p[behind], radius));
+        to = share<G>(p[behind], p[first], p[i], radius, more.v - volume);
+      }
+      const Stand a = pair.at(s), b = pair.at(std::min(to, s));
+      best.take(a);
+      look(pair, a, b, best);
+      s = std::min(to, s);
+      if (j == end)
+        break;
+      j = behind;
+    }
+  }
+  return best;
+}
+} // namespace turning
+
+/// Moment of fluid in a convex polygon: as `best_cut` of a triangle. Fractions
+/// are of `whole`, and so is the error: Σ fraction · distance².
+///
+/// @param[in] p      counter-clockwise, measured from a point at `radius`
+/// @param[in] whole  volume and first moments of p
+/// @param[in] in,out fractions > 0 of p add up to 1; centroids
+template <Geometry G, int N>
+Straight best_cut(const Polygon<N>& p, const Moments& whole, const Target& in,
+                  const Target& out, double radius)
+{
+  const Point centre = whole.centroid();
+  const Point miss = in.fraction * (in.centroid - centre)
+                     + out.fraction * (out.centroid - centre);
+  // The smaller part keeps its digits.
+  const bool first = in.fraction <= out.fraction;
+  const Target& small = first ? in : out;
+  const Target& large = first ? out : in;
+  const turning::Best best = turning::nearest<G>(p, small.fraction * whole.v,
+                                                 small.centroid - miss, radius);
+  // Chords run from the start over the part on their right.
+  HalfPlane plane = Chord{best.chord.b, best.chord.a}.left();
+  if (not first)
+    plane = plane.flipped();
+  return {plane,
+          small.fraction / large.fraction * best.distance2 + dot(miss, miss)};
+}
+} // namespace remap
