@@ -15,6 +15,8 @@ namespace
 {
 /// Parts of a piece below this part of it go with its largest.
 constexpr double smallest_part = 1e-14;
+/// A part that keeps less than this part of itself leaves wholly.
+constexpr double wholly = 1e-12;
 /// Neighbours nearer than the root of this, in lengths of the cell, are none:
 /// slivers at a common corner.
 constexpr double same_place = 1e-16;
@@ -405,7 +407,49 @@ void MaterialTransport::write(const Share& s)
   pieces.at[p] = s.at;
 }
 
-/// Pieces of slots, the volumes and first moments that they leave.
+/// What leaves each part, and where what remains lies. A part that leaves its
+/// cell wholly must leave with all its first moment, or what a linear function
+/// gives its pieces would not be what it held: they are shifted together.
+void MaterialTransport::leave_parts(const Host& host)
+{
+  ControlVolumes& cv = *_cv;
+  for (const Share& s : _shares)
+    if (s.from >= cv.first_part)
+      cv.leave(s.from, s.volume, s.at);
+  double any = 0;
+  _shift.assign(std::size_t(2) * cv.num, 0);
+  for (std::size_t i = _touched; i < cv.touched.size(); ++i)
+  {
+    const std::int32_t slot = cv.touched[i];
+    if (not cv.ours(slot))
+      continue;
+    const double rest = cv.volume[slot] - cv.leaving[slot];
+    if (rest > wholly * cv.volume[slot]
+        and rest > round_off * cv.volume[cell_of(slot)])
+    {
+      cv.remains[slot] = (1 / rest) * cv.remains[slot];
+      continue;
+    }
+    if (cv.leaving[slot] > 0)
+    {
+      const Point shift = (1 / cv.leaving[slot]) * cv.remains[slot];
+      _shift[std::size_t(2) * slot] = shift.x;
+      _shift[std::size_t(2) * slot + 1] = shift.y;
+      any = 1;
+    }
+    cv.remains[slot] = {};
+  }
+  if (not(host.max(any) > 0))
+    return;
+  update(_shift, 2, host);
+  for (Share& s : _shares)
+    if (s.from >= cv.first_part)
+      s.at = s.at
+             + Point{_shift[std::size_t(2) * s.from],
+                     _shift[std::size_t(2) * s.from + 1]};
+}
+
+/// Pieces of slots, and what they leave.
 void MaterialTransport::write_shares()
 {
   ControlVolumes& cv = *_cv;
@@ -416,21 +460,11 @@ void MaterialTransport::write_shares()
     {
       if (slot < cv.first_part)
         continue;
-      const std::int32_t c = cell_of(slot);
       const double v = slot == s.from ? -s.volume : s.volume;
       cv.next[slot] += v;
       Point& m = _moment[slot - cv.first_part];
-      m = m + v * (s.at - cv.centroid[c]);
-      if (v < 0)
-        cv.leave(slot, s.volume, s.at);
+      m = m + v * (s.at - cv.centroid[cell_of(slot)]);
     }
-  }
-  for (std::size_t i = _touched; i < cv.touched.size(); ++i)
-  {
-    const std::int32_t slot = cv.touched[i];
-    const double rest = cv.volume[slot] - cv.leaving[slot];
-    cv.remains[slot] =
-        (rest > 1e-12 * cv.volume[slot] ? 1 / rest : 0.0) * cv.remains[slot];
   }
   // What newcomers take of a pure cell.
   _guests_next.clear();
@@ -532,6 +566,7 @@ void MaterialTransport::open(std::span<const double> x,
   _outer_parent.clear();
   _newcomers.clear();
   _guests.clear();
+  _near.find(*_materials);
   _interfaces.reconstruct(x, *_materials, host);
   if (overlay)
     cut_overlaid<G>(x, y, *overlay);
@@ -540,6 +575,7 @@ void MaterialTransport::open(std::span<const double> x,
   set_parts();
   cap(host);
   set_newcomers();
+  leave_parts(host);
   write_shares();
   find_rows(x);
   cv.kinds.swap(_kinds);

@@ -9,7 +9,9 @@
 #include "remap/geometry/swept.h"
 #include "remap/interfaces/partition.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace remap
 {
@@ -72,6 +74,24 @@ ByPart cut_swept(const Motion& m, double sign, const Partition& by)
   swept_triangles(m, sign, [&](const Triangle& t)
                   { add_moments<G>(Polygon<3>(t), by, out); });
   return out;
+}
+
+/// Nearest place in a triangle, about.
+inline Point held_inside(const Triangle& t, Point p)
+{
+  const double all = twice_area(t[0], t[1], t[2]);
+  double w[3] = {twice_area(p, t[1], t[2]) / all,
+                 twice_area(t[0], p, t[2]) / all,
+                 twice_area(t[0], t[1], p) / all};
+  if (w[0] >= 0 and w[1] >= 0 and w[2] >= 0)
+    return p;
+  double sum = 0;
+  for (double& v : w)
+  {
+    v = std::isfinite(v) ? std::max(v, 0.0) : 1.0;
+    sum += v;
+  }
+  return (w[0] / sum) * t[0] + (w[1] / sum) * t[1] + (w[2] / sum) * t[2];
 }
 
 /// Overlap of two triangles, counter-clockwise, by the parts of the first.

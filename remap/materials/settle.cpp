@@ -12,30 +12,6 @@
 
 using namespace remap;
 
-namespace
-{
-/// A part of a cell below this fraction is round-off.
-constexpr double round_off = 1e-15;
-
-/// Nearest place in a triangle, about.
-Point held_inside(const Triangle& t, Point p)
-{
-  const double all = twice_area(t[0], t[1], t[2]);
-  double w[3] = {twice_area(p, t[1], t[2]) / all,
-                 twice_area(t[0], p, t[2]) / all,
-                 twice_area(t[0], t[1], p) / all};
-  if (w[0] >= 0 and w[1] >= 0 and w[2] >= 0)
-    return p;
-  double sum = 0;
-  for (double& v : w)
-  {
-    v = std::isfinite(v) ? std::max(v, 0.0) : 1.0;
-    sum += v;
-  }
-  return (w[0] / sum) * t[0] + (w[1] / sum) * t[1] + (w[2] / sum) * t[2];
-}
-} // namespace
-
 /// Fill ghosts of an array over slots, of which the parts are not newcomers:
 /// cells first, then first parts of mixed cells, second parts and so on.
 void MaterialTransport::update(std::span<double> values, int block,

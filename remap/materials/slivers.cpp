@@ -137,7 +137,8 @@ void MaterialTransport::note_jump(std::int32_t c, std::int32_t d, double mass)
 }
 
 /// Put parcels into their slots.
-void MaterialTransport::deliver(std::span<const double> volume)
+void MaterialTransport::deliver(std::span<const double> volume,
+                                std::span<const double> y)
 {
   Materials& m = *_materials;
   for (const Parcel& p : _parcels)
@@ -150,7 +151,12 @@ void MaterialTransport::deliver(std::span<const double> volume)
     part.fraction = emptied ? 0 : after / volume[c];
     const double weight = emptied ? 0 : p.volume / after;
     if (p.volume > 0)
-      part.centroid = part.centroid + weight * (p.at - part.centroid);
+    {
+      const Triple& n = _mesh->cell(c);
+      part.centroid =
+          held_inside({point(y, n[0]), point(y, n[1]), point(y, n[2])},
+                      part.centroid + weight * (p.at - part.centroid));
+    }
     const double* from = &_parcel_values[static_cast<std::size_t>(p.values)];
     for (const MaterialField& field : _fields)
     {
@@ -165,6 +171,7 @@ void MaterialTransport::deliver(std::span<const double> volume)
 /// Sweep up slivers in the cells that changed.
 /// @param[in] volume of cells, now
 void MaterialTransport::sweep_slivers(std::span<const double> volume,
+                                      std::span<const double> y,
                                       const Host& host)
 {
   _jumps.clear();
@@ -177,7 +184,7 @@ void MaterialTransport::sweep_slivers(std::span<const double> volume,
       return;
     host.update_cells(_choice, choice_size);
     collect_parcels(volume);
-    deliver(volume);
+    deliver(volume, y);
     _entries.clear();
     for (std::size_t r = 0; r < _materials->mixed().size(); ++r)
       if (_materials->mixed()[r] < _mesh->owned_cells())

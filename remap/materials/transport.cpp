@@ -101,7 +101,7 @@ bool MaterialTransport::sound(const Materials& m,
         inside = inside
                  and position::depth(t[k], t[(k + 1) % 3], p.centroid)
                          >= -outside_slack * size * size;
-      if (not(p.fraction > 0 and p.fraction < 1) or not inside
+      if (not(p.fraction > 0 and p.fraction <= 1) or not inside
           or p.material <= last or p.material >= _options.number)
         return false;
       last = p.material;
@@ -235,7 +235,7 @@ void MaterialTransport::carry(std::span<const double> x,
   assign();
   for (const MaterialField& field : _fields)
     update(field.values, field.components, host);
-  sweep_slivers(_cv->next, host);
+  sweep_slivers(_cv->next, y, host);
 }
 
 /// What pieces of slots take, for the pieces of cells they are parts of.

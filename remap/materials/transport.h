@@ -65,6 +65,9 @@ public:
   void count(const Host& host);
 
 private:
+  /// A part of a cell below this fraction is round-off.
+  static constexpr double round_off = 1e-15;
+
   /// What one slot gives to another: a piece, or a part of one.
   struct Share
   {
@@ -132,6 +135,7 @@ private:
   void set_newcomers();
   void cap(const Host& host);
   void apply_caps();
+  void leave_parts(const Host& host);
   void write_shares();
   void write(const Share& s);
   void find_rows(std::span<const double> x);
@@ -148,12 +152,13 @@ private:
   void keep_row(std::int32_t row);
 
   // slivers.cpp
-  void sweep_slivers(std::span<const double> volume, const Host& host);
+  void sweep_slivers(std::span<const double> volume, std::span<const double> y,
+                     const Host& host);
   [[nodiscard]] bool choose(std::span<const double> volume);
   void collect_parcels(std::span<const double> volume);
   void send(std::int32_t from, std::int32_t to, double v);
   void note_jump(std::int32_t c, std::int32_t d, double mass);
-  void deliver(std::span<const double> volume);
+  void deliver(std::span<const double> volume, std::span<const double> y);
 
   [[nodiscard]] std::int32_t cell_of(std::int32_t slot) const
   {
@@ -188,6 +193,7 @@ private:
   std::vector<Point> _moment; // of slots behind the cells, from their cell's
                               // old centroid
   std::vector<double> _caps;  // scale and share of each slot
+  std::vector<double> _shift; // of the pieces of each slot
   std::vector<Entry> _entries;
   std::vector<double> _buffer, _sent, _choice;
   std::vector<Parcel> _parcels;

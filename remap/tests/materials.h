@@ -81,8 +81,7 @@ inline Partition sectors(Point at, std::span<const double> angles)
   };
   // Left of ray 0 are sectors up to half a turn on, right of it the rest.
   std::size_t half = 1;
-  while (half < angles.size()
-         and angles[half] - angles[0] < std::numbers::pi)
+  while (half < angles.size() and angles[half] - angles[0] < std::numbers::pi)
     ++half;
   const auto chain = [&](std::size_t first, std::size_t last)
   {
@@ -110,8 +109,8 @@ using Value = std::function<double(Point, int)>;
 
 /// Means over slots of a function linear in each material.
 inline std::vector<double> values(const Mesh& mesh, Geometry geometry,
-                                  std::span<const double> x,
-                                  const Materials& m, const Value& f)
+                                  std::span<const double> x, const Materials& m,
+                                  const Value& f)
 {
   std::vector<double> v(mesh.num_cells()),
       at(std::size_t(2) * mesh.num_cells()), out(m.num_slots());
@@ -124,8 +123,8 @@ inline std::vector<double> values(const Mesh& mesh, Geometry geometry,
     for (std::size_t k = 0; k < m.parts(row).size(); ++k)
     {
       const Part& p = m.parts(row)[k];
-      out[m.first_slot(row) + static_cast<std::int32_t>(k)]
-          = f(p.centroid, p.material);
+      out[m.first_slot(row) + static_cast<std::int32_t>(k)] =
+          f(p.centroid, p.material);
     }
   }
   return out;
@@ -152,19 +151,17 @@ void each_slot(const Mesh& mesh, Geometry geometry, std::span<const double> x,
 }
 
 /// Integral over each material; of 1 without values.
-inline std::vector<double> integrals(const Mesh& mesh, Geometry geometry,
-                                     std::span<const double> x,
-                                     const Materials& m,
-                                     std::span<const double> u = {},
-                                     std::size_t components = 1,
-                                     std::size_t k = 0)
+inline std::vector<double>
+integrals(const Mesh& mesh, Geometry geometry, std::span<const double> x,
+          const Materials& m, std::span<const double> u = {},
+          std::size_t components = 1, std::size_t k = 0)
 {
   std::vector<double> out(m.num_materials());
   each_slot(mesh, geometry, x, m,
             [&](std::int32_t s, int material, double v, Point)
             {
-              out[material]
-                  += v * (u.empty() ? 1.0 : u[components * std::size_t(s) + k]);
+              out[material] +=
+                  v * (u.empty() ? 1.0 : u[components * std::size_t(s) + k]);
             });
   return out;
 }
