@@ -79,7 +79,10 @@ Remapper::Remapper(const Mesh& mesh, Options options)
   if (o.per_mass)
   {
     if (mixed)
+    {
       _mixture.resize(mesh.num_cells());
+      _nodes.jump.assign(std::size_t(3) * mesh.num_cells(), 0);
+    }
     _amounts.inner.resize(_cells.inner.from.size());
     _amounts.outer.resize(_cells.outer.from.size());
   }

@@ -39,13 +39,26 @@ void Remapper::carry_masses(const Fields& fields, std::size_t entry,
 {
   _cells.split(_x, _y, _amounts.inner, _amounts.outer, _nodes.passing);
   std::span<const double> rho = _mixture;
+  const auto jump = [this](bool there)
+  {
+    for (const auto& [c, corner, mass] : _materials->jumps())
+    {
+      double& at = _nodes.jump[static_cast<std::size_t>(3 * c + corner)];
+      at = there ? at + mass : 0;
+    }
+  };
   if (mixture(fields))
+  {
     for (std::int32_t c : _cells.touched)
       _mixture[c] = _materials->mixture(c);
+    jump(true);
+  }
   else
     rho = fields.cells[fields.density].values;
   _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(), rho, _x, _y, host);
   _nodes.exchange_masses<G>(_cells.touched, _moved, _x, _y);
+  if (mixture(fields))
+    jump(false);
   _report.mass_loss =
       std::max(_report.mass_loss, host.max(_nodes.largest_loss()));
   for (const Field& field : fields.per_mass)

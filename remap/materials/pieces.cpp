@@ -234,6 +234,7 @@ void MaterialTransport::grow()
   const auto num =
       _materials->num_slots() + static_cast<std::int32_t>(_newcomers.size());
   _cv->hold(num);
+  _cv->first_new = _materials->num_slots();
   _cv->cell_of_part.resize(num - _cv->first_part);
   _kinds.resize(num);
 }
@@ -542,7 +543,7 @@ void MaterialTransport::restore()
     cv.next[_guests[k]] = _guests_next[k];
     _head[_guests[k]] = -1;
   }
-  cv.num = cv.first_part;
+  cv.num = cv.first_new = cv.first_part;
   cv.neighbours = _mesh->cell_cells();
   cv.beside = cv.across;
   cv.fitted = cv.nobody;

@@ -84,7 +84,6 @@ void MaterialTransport::collect_parcels(std::span<const double> volume)
   const Materials& m = *_materials;
   _parcels.clear();
   _parcel_values.clear();
-  _jumps.clear();
   std::size_t number = 0;
   for (std::size_t r = 0; r < m.mixed().size(); ++r)
   {

@@ -76,6 +76,7 @@ struct ControlVolumes
   /// Volumes behind the cells, if they are parts of them (materials/slots.h):
   /// the cell and the kind of each; a kind of volumes has its own book.
   std::int32_t first_part = 0;
+  std::int32_t first_new = 0; ///< those that hold nothing yet stand last
   std::vector<std::int32_t> cell_of_part;
   std::vector<std::int32_t> kinds;
   int width = 1; ///< components of the widest field
@@ -140,7 +141,7 @@ struct ControlVolumes
   {
     neighbours = stencil;
     beside = sides;
-    num = first_part = stencil.size();
+    num = first_part = first_new = stencil.size();
     owned = num_owned;
     width = components;
     volume.assign(num, 0);

@@ -124,8 +124,16 @@ struct Convex
     {
       for (int k = 0; k < N; ++k)
         low(i)[k] = cv.content[std::size_t(N) * i + k] / cv.next[i];
-      factor(i) = 1;
+      // What held nothing has no set of its own: it gets the donors' means.
+      factor(i) = i < cv.first_new ? 1 : 0;
     }
+  }
+
+  /// Digits that a result does not have: few more than numbers do not, but
+  /// where little is left of a volume.
+  [[nodiscard]] double round_off(std::int32_t i) const
+  {
+    return 1e-13 * std::max(1.0, 0.01 * cv.volume[i] / cv.next[i]);
   }
 
   /// Part of a way from the donor cell's result that stays in the set.
@@ -134,7 +142,8 @@ struct Convex
     hull::Vector<N> from;
     std::copy_n(low(i), N, from.begin());
     if constexpr (not balls)
-      return hull::reach<N>(around(i), from, way, 1e-13 * size_around(i));
+      return hull::reach<N>(around(i), from, way,
+                            round_off(i) * size_around(i));
     const auto norm2 = [this](const hull::Vector<N>& v)
     {
       double sum = 0;
@@ -202,7 +211,9 @@ struct Convex
     bool any = false;
     for (std::int32_t i : cv.touched)
     {
-      if (not cv.ours(i) or not(factor(i) > 0))
+      // A volume that nothing is left of has no say.
+      if (not cv.ours(i) or not(factor(i) > 0)
+          or not(cv.next[i] > 1e-12 * cv.volume[i]))
         continue;
       hull::Vector<N> way;
       std::copy_n(change(i), N, way.begin());
