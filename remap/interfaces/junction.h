@@ -261,7 +261,7 @@ struct Problem
     {
       derivatives(y, j);
       bool better = false;
-      for (int k = 0; k < 8 and not better; ++k, damping *= better ? 1 : 10)
+      for (int k = 0; k < 16 and not better; ++k, damping *= better ? 1 : 10)
       {
         Step x;
         if (not solve(j, r, damping, x))
@@ -284,7 +284,7 @@ struct Problem
       }
       if (not better)
         break;
-      damping *= 0.05;
+      damping = std::max(1e-9, 0.05 * damping);
     }
     if (not holds(y.at) or not fill(y))
       return {};
@@ -330,19 +330,46 @@ std::optional<Junction> best_junction(const Piece& p, const Moments& whole,
     start.part = {0, 2, 1};
   const Point mean = 1.0 / 3 * (g[0] + g[1] + g[2]);
   std::optional<Junction> best;
-  // From between the centroids, then from nearer to each of them and further.
-  for (int i = 0; i < 7; ++i)
+  // From between the centroids, nearer to those of small parts, to each of
+  // them, and further from them.
+  Point small;
+  double sum = 0;
+  for (const Target& t : problem.targets)
   {
-    start.at =
-        i == 0 ? mean : mean + (i < 4 ? 0.4 : -0.4) * (g[(i - 1) % 3] - mean);
+    small = small + 1 / t.fraction * t.centroid;
+    sum += 1 / t.fraction;
+  }
+  const auto place = [&](int i)
+  {
+    if (i == 0)
+      return 1 / sum * small;
+    if (i == 1)
+      return mean;
+    if (i < 8)
+      return mean + (i < 5 ? 0.4 : -0.4) * (g[(i - 2) % 3] - mean);
+    // Near vertices and the middles of edges.
+    const int k = (i - 8) / 2, l = k + 1 < q.size ? k + 1 : 0;
+    const Point edge = i % 2 == 0 ? q[k] : middle(q[k], q[l]);
+    return mean + 0.8 * (edge - mean);
+  };
+  for (int i = 0; i < 8 + 2 * q.size; ++i)
+  {
+    start.at = place(i);
     if (not problem.holds(start.at))
       continue;
+    // Rays half-way between the ways to the centroids beside them.
+    double to[3];
     for (int k = 0; k < 3; ++k)
     {
-      const Point to =
-          middle(g[start.part[k]], g[start.part[k == 0 ? 2 : k - 1]])
-          - start.at;
-      start.angle[k] = std::atan2(to.y, to.x);
+      const Point d = g[start.part[k]] - start.at;
+      to[k] = std::atan2(d.y, d.x);
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const double from = to[k == 0 ? 2 : k - 1];
+      double turn = std::remainder(to[k] - from, 2 * std::numbers::pi);
+      turn += turn < 0 ? 2 * std::numbers::pi : 0;
+      start.angle[k] = from + 0.5 * turn;
     }
     if (const auto y = problem.settle(start);
         y and (not best or y->error < best->error))

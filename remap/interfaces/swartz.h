@@ -18,9 +18,10 @@ struct Swartz
 {
   static constexpr std::string_view name = "swartz";
   static constexpr bool uses_centroids = false;
+  static constexpr bool exact = true; ///< for straight interfaces
   /// Each costs about what Youngs' does; with fewer, straight interfaces are
   /// not exact.
-  static constexpr int sweeps = 5;
+  static constexpr int sweeps = 25;
 
   template <Geometry G>
   static Point normal(const Stencil& s)
