@@ -16,8 +16,10 @@ Interfaces::Interfaces(const Mesh& mesh, InterfaceOptions options)
 }
 
 template <Geometry G, class Method>
-void Interfaces::cells(std::span<const double> x, const Materials& materials)
+void Interfaces::cells(const Method& method, std::span<const double> x,
+                       const Materials& materials)
 {
+  _report = {};
   const auto num = static_cast<std::int32_t>(materials.mixed().size());
   for (std::int32_t row = 0; row < num; ++row)
   {
@@ -26,9 +28,15 @@ void Interfaces::cells(std::span<const double> x, const Materials& materials)
     if constexpr (Method::uses_centroids)
     {
       const Triple& v = _mesh->cell(c);
-      Method::template solve<G>(
+      const Tally tally = method.template solve<G>(
           {point(x, v[0]), point(x, v[1]), point(x, v[2])}, parts,
           _partitions[row]);
+      if (c < _mesh->owned_cells())
+      {
+        _report.filaments += tally.filaments;
+        _report.unresolved += tally.unresolved;
+        _report.residual = std::max(_report.residual, tally.error);
+      }
     }
     else if (c < _mesh->owned_cells())
     {
@@ -46,6 +54,7 @@ void Interfaces::cells(std::span<const double> x, const Materials& materials)
           _partitions[row]);
     }
   }
+  _report.residual = std::sqrt(_report.residual);
 }
 
 template <Geometry G, class Method>
@@ -161,13 +170,13 @@ void Interfaces::reconstruct(std::span<const double> x,
 {
   _partitions.resize(std::max(_partitions.size(), materials.mixed().size()));
   std::visit(
-      [&]<class Method>(const Method&)
+      [&]<class Method>(const Method& method)
       {
         const bool plane = _options.geometry == Geometry::plane;
         if (plane)
-          cells<Geometry::plane, Method>(x, materials);
+          cells<Geometry::plane, Method>(method, x, materials);
         else
-          cells<Geometry::axisymmetric, Method>(x, materials);
+          cells<Geometry::axisymmetric, Method>(method, x, materials);
         if constexpr (not Method::uses_centroids)
         {
           fill_ghosts(materials, host);
