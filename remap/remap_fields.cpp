@@ -143,6 +143,8 @@ void Remapper::repair(const Fields& fields, const Host& host)
   if (_masses and not fields.nodes.empty())
     _nodes.measure_next<G>(_x_new);
   all(fields.nodes, _nodes, _node_halo);
+  if (fields.materials)
+    _materials->repair(_x_new, _repair, host, repaired, _report.unrepaired);
   host.sum(std::span(&repaired, 1));
   _report.repaired = static_cast<std::int64_t>(repaired);
 }

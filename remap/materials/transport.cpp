@@ -238,6 +238,43 @@ void MaterialTransport::carry(std::span<const double> x,
   sweep_slivers(_cv->next, y, host);
 }
 
+void MaterialTransport::repair(std::span<const double> x, Repair& repair,
+                               const Host& host, double& repaired,
+                               double& unrepaired)
+{
+  if (std::all_of(_fields.begin(), _fields.end(),
+                  [](const MaterialField& f) { return f.least.empty(); }))
+    return;
+  CellVolumes& cv = *_cv;
+  begin();
+  set_parts(cv.next);
+  find_rows(x);
+  const Halo halo = [this, &host](std::span<double> values, int block)
+  { update(values, block, host); };
+  const std::vector<std::int32_t> all = cv.touched;
+  for (int m = 0; m < _options.number; ++m)
+  {
+    cv.touched.clear();
+    for (const std::int32_t slot : all)
+      if (_kinds[slot] == m)
+        cv.touched.push_back(slot);
+    for (const MaterialField& field : _fields)
+      for (int k = 0; not field.least.empty() and carries(field, m)
+                      and k < field.components;
+           ++k)
+      {
+        std::int64_t number = 0;
+        const double left =
+            repair.run(over_slots(field), k, cv, halo, host, number);
+        repaired += static_cast<double>(number);
+        unrepaired = std::max(unrepaired, left);
+      }
+  }
+  cv.touched = all;
+  cv.kinds.swap(_kinds);
+  restore();
+}
+
 /// What pieces of slots take, for the pieces of cells they are parts of.
 void MaterialTransport::add_up(Amounts& amounts) const
 {

@@ -14,6 +14,7 @@
 #include "remap/materials/slots.h"
 #include "remap/transport/carrier.h"
 #include "remap/transport/overlay.h"
+#include "remap/transport/repair.h"
 
 namespace remap
 {
@@ -61,6 +62,13 @@ public:
   /// Mass that sliver sweeping moved in the last sub-cycle.
   [[nodiscard]] std::span<const Jump> jumps() const { return _jumps; }
   [[nodiscard]] const MaterialReport& report() const { return _report; }
+  /// After the last sub-cycle: fields with a range back into it, each material
+  /// by itself.
+  /// @param[in]     x          coordinates now
+  /// @param[in,out] repaired   grows by our values that were out of range
+  /// @param[in,out] unrepaired largest amount that found no room
+  void repair(std::span<const double> x, Repair& repair, const Host& host,
+              double& repaired, double& unrepaired);
   /// After the last sub-cycle: add up the report.
   void count(const Host& host);
 
@@ -110,6 +118,7 @@ private:
   void add_up(Amounts& amounts) const;
 
   // pieces.cpp
+  void begin();
   template <Geometry G>
   void open(std::span<const double> x, std::span<const double> y,
             const Overlay* overlay, const Host& host);
@@ -131,7 +140,7 @@ private:
   void grow();
   void set_slot(std::int32_t slot, std::int32_t c, std::int32_t material,
                 double volume, Point at);
-  void set_parts();
+  void set_parts(const std::vector<double>& volume);
   void set_newcomers();
   void cap(const Host& host);
   void apply_caps();
