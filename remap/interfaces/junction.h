@@ -253,12 +253,17 @@ struct Problem
   }
 
   /// From a start to a minimum.
-  std::optional<Junction> settle(Junction y) const
+  /// @param[in] bound what the error must come below: searches that do not
+  ///                  come near it soon are given up
+  std::optional<Junction> settle(Junction y, double bound) const
   {
     double r[conditions], j[conditions][unknowns];
     double sum = residuals(y, r), damping = 1e-3;
     for (int i = 0; i < 200 and sum > 1e-30; ++i)
     {
+      const double error = sum * size * size;
+      if (i >= 40 and error > 100 * bound)
+        return {};
       derivatives(y, j);
       bool better = false;
       for (int k = 0; k < 16 and not better; ++k, damping *= better ? 1 : 10)
@@ -275,7 +280,7 @@ struct Problem
           continue;
         if (const double now = residuals(next, s); now < sum)
         {
-          better = sum - now > 1e-12 * sum;
+          better = sum - now > 1e-9 * sum;
           y = next, sum = now;
           std::copy(s, s + conditions, r);
           if (not better)
@@ -307,10 +312,13 @@ struct Problem
 /// @param[in] p       counter-clockwise, measured from a point at `radius`
 /// @param[in] whole   volume and first moments of p
 /// @param[in] targets fractions of p, centroids
+/// @param[in] bound, good_enough errors: what it must come below, and where the
+///                    search may end
 template <Geometry G>
 std::optional<Junction> best_junction(const Piece& p, const Moments& whole,
                                       const std::array<Target, 3>& targets,
-                                      double radius, double good_enough)
+                                      double radius, double bound,
+                                      double good_enough)
 {
   const Round shape(p);
   junction::Problem<G> problem = {{}, 0,       shape.scaled(radius),
@@ -371,7 +379,7 @@ std::optional<Junction> best_junction(const Piece& p, const Moments& whole,
       turn += turn < 0 ? 2 * std::numbers::pi : 0;
       start.angle[k] = from + 0.5 * turn;
     }
-    if (const auto y = problem.settle(start);
+    if (const auto y = problem.settle(start, best ? best->error : bound);
         y and (not best or y->error < best->error))
       best = y;
     if (best and best->error <= good_enough)

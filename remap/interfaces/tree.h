@@ -12,7 +12,7 @@
 //
 // Two parts that one cut cannot bring near their centroids are a filament, or a
 // corner: then the smaller one may be a strip with the other on both sides.
-// Three parts may meet in a point.
+// Three parts may meet in a point, in cells of up to `all_trees` parts.
 #pragma once
 
 #include "remap/interfaces/filament.h"
@@ -200,7 +200,7 @@ private:
       follow(p, parts, ways[k], best);
     if (std::popcount(parts) == 2)
       strip(p, whole, parts, best);
-    if (std::popcount(parts) == 3)
+    if (std::popcount(parts) == 3 and _count <= all_trees)
       meet(p, whole, parts, best);
   }
 
@@ -255,8 +255,8 @@ private:
     }
     for (int i = 0; i < 3; ++i)
       targets[i] = share(part[i], all);
-    auto found =
-        best_junction<G>(p, whole, targets, radius(), 1e-22 * least_spread(p));
+    auto found = best_junction<G>(p, whole, targets, radius(), best.error / all,
+                                  1e-22 * least_spread(p));
     Partition cuts;
     if (not found or not(all * found->error < best.error))
       return;
