@@ -25,8 +25,8 @@ struct Case
   std::vector<shapes::Body> bodies;
   eulerian::Flow flow;
   double time = 1;
-  double fastest = 1;  ///< velocity in the square
-  bool open = false;   ///< does the flow cross the outline?
+  double fastest = 1; ///< velocity in the square
+  bool open = false;  ///< does the flow cross the outline?
 };
 
 /// LeVeque's vortex, one turn of Zalesak's disc or of a whole one, a disc that
@@ -70,13 +70,13 @@ struct Result
   double error = 0;    ///< Σ |f − f at the start| V of the bodies, halved if
                        ///< there are several
   double relative = 0; ///< over their volume
-  double drift = 0;    ///< largest change of a material's volume but what passed
-                       ///< the outline
-  double beyond = 0;   ///< farthest fraction out of [0, 1]
-  double mixed = 0;    ///< mixed cells, mean over steps
-  double spread = 0;   ///< volume of the cells at the end that hold more than
-                       ///< 1e-6 of a body and of the rest, over the start's
-  int pieces = 0;      ///< bodies at half time, by cells with more than 0.05
+  double drift = 0;  ///< largest change of a material's volume but what passed
+                     ///< the outline
+  double beyond = 0; ///< farthest fraction out of [0, 1]
+  double mixed = 0;  ///< mixed cells, mean over steps
+  double spread = 0; ///< volume of the cells at the end that hold more than
+                     ///< 1e-6 of a body and of the rest, over the start's
+  int pieces = 0;    ///< bodies at half time, by cells with more than 0.05
   std::int64_t swept = 0, kept = 0; ///< slivers
   eulerian::Seconds seconds;
 };
@@ -163,8 +163,8 @@ inline Result run(const Case& what, const Setting& how)
   for (int k = 0; k < out.steps and out.outcome == Outcome::ok; ++k)
   {
     out.mixed += static_cast<double>(run.materials.mixed().size()) / out.steps;
-    out.outcome
-        = run.step(what.flow, k * what.time / out.steps, what.time / out.steps);
+    out.outcome =
+        run.step(what.flow, k * what.time / out.steps, what.time / out.steps);
     out.swept += run.transport.report().slivers_swept;
     out.kept += run.transport.report().slivers_kept;
     const bool end = k + 1 == out.steps;
@@ -179,12 +179,12 @@ inline Result run(const Case& what, const Setting& how)
   double whole = 0;
   for (int k = 0; k < num; ++k)
   {
-    const double before
-        = eulerian::volume(mesh, Geometry::plane, data.x, start, k);
-    const double now
-        = eulerian::volume(mesh, Geometry::plane, data.x, run.materials, k);
-    const double passed
-        = run.ledger.volume.empty() ? 0 : net(run.ledger.volume[k]);
+    const double before =
+        eulerian::volume(mesh, Geometry::plane, data.x, start, k);
+    const double now =
+        eulerian::volume(mesh, Geometry::plane, data.x, run.materials, k);
+    const double passed =
+        run.ledger.volume.empty() ? 0 : net(run.ledger.volume[k]);
     out.drift = std::max(out.drift, std::abs(now - before - passed));
     whole += k > 0 ? before : 0;
     if (num == 2 ? k == 1 : true)
@@ -229,16 +229,15 @@ inline Result run_donor_cell(const Case& what, const Setting& how)
   {
     for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
     {
-      const Point p = eulerian::traced_back(what.flow, point(home, i),
-                                            (k + 1) * dt, dt);
+      const Point p =
+          eulerian::traced_back(what.flow, point(home, i), (k + 1) * dt, dt);
       before[2 * i] = p.x, before[2 * i + 1] = p.y;
     }
     const Field field{.values = f, .inflow = inflow};
     const double begin = static_cast<double>(std::clock());
-    out.outcome
-        = remapper.remap(home, before, {&field, 1}, {}, Host{}, ledger);
-    out.seconds.carry
-        += (static_cast<double>(std::clock()) - begin) / CLOCKS_PER_SEC;
+    out.outcome = remapper.remap(home, before, {&field, 1}, {}, Host{}, ledger);
+    out.seconds.carry +=
+        (static_cast<double>(std::clock()) - begin) / CLOCKS_PER_SEC;
   }
   std::vector<double> volumes(mesh.num_cells());
   cell_volumes(mesh, Geometry::plane, home, volumes);

@@ -34,8 +34,7 @@ inline Moments in_disc(const Outline& polygon, Point centre, double r)
   {
     const double turn = std::atan2(remap::cross(a, b), remap::dot(a, b));
     const double from = std::atan2(a.y, a.x), to = from + turn;
-    sum += {r * r / 2 * turn,
-            r * r * r / 3 * (std::sin(to) - std::sin(from)),
+    sum += {r * r / 2 * turn, r * r * r / 3 * (std::sin(to) - std::sin(from)),
             r * r * r / 3 * (std::cos(from) - std::cos(to))};
   };
   for (int i = 0; i < polygon.size; ++i)
@@ -118,8 +117,8 @@ inline std::vector<Body> quarters(Point centre, double r)
   std::vector<Body> out;
   for (const double sx : {1.0, -1.0})
     for (const double sy : {1.0, -1.0})
-      out.push_back(part_in(disc(centre, r),
-                            {{{sx, 0}, centre}, {{0, sy}, centre}}));
+      out.push_back(
+          part_in(disc(centre, r), {{{sx, 0}, centre}, {{0, sy}, centre}}));
   return out;
 }
 
