@@ -132,6 +132,7 @@ struct Setting
   Reconstruction method = reconstruction::MomentOfFluid{};
   bool bend = true;
   double sliver = 1e-10;
+  double height = 1; ///< of the rectangle, as broad as 1
   /// Called at half time and at the end, with interfaces ready.
   std::function<void(bool end, const eulerian::Run&)> look = {};
 };
@@ -144,7 +145,8 @@ inline int steps_of(const Case& what, const Setting& how)
 
 inline Result run(const Case& what, const Setting& how)
 {
-  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal);
+  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal, 0,
+                                      0, 1, how.height);
   const Mesh mesh = data.mesh();
   const Materials start = shapes::lay(mesh, data.x, what.bodies);
   eulerian::Options options{.interfaces = {.method = how.method},
@@ -206,9 +208,15 @@ inline Result run(const Case& what, const Setting& how)
 }
 
 /// The same with fractions as means over cells, by donor cell: no interface.
-inline Result run_donor_cell(const Case& what, const Setting& how)
+///
+/// @param[in] see called with means at half time and at the end
+inline Result run_donor_cell(
+    const Case& what, const Setting& how,
+    const std::function<void(bool end, const Mesh&, std::span<const double> x,
+                             std::span<const double> f)>& see = {})
 {
-  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal);
+  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal, 0,
+                                      0, 1, how.height);
   const Mesh mesh = data.mesh();
   const Materials start = shapes::lay(mesh, data.x, what.bodies);
   const Boundary kind = what.open ? Boundary::open : Boundary::closed;
@@ -238,6 +246,8 @@ inline Result run_donor_cell(const Case& what, const Setting& how)
     out.outcome = remapper.remap(home, before, {&field, 1}, {}, Host{}, ledger);
     out.seconds.carry +=
         (static_cast<double>(std::clock()) - begin) / CLOCKS_PER_SEC;
+    if (see and (k + 1 == out.steps or 2 * (k + 1) == out.steps))
+      see(k + 1 == out.steps, mesh, home, f);
   }
   std::vector<double> volumes(mesh.num_cells());
   cell_volumes(mesh, Geometry::plane, home, volumes);

@@ -130,9 +130,10 @@ Moments everything(const Outline& cell, Point about)
 }
 
 /// Materials 1, 2, … are bodies that do not overlap, 0 is what is left.
+/// @param[in] least smaller fractions are none
 template <remap::Geometry G = remap::Geometry::plane>
 remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
-                     const std::vector<Body>& bodies)
+                     const std::vector<Body>& bodies, double least = 1e-11)
 {
   const int num = static_cast<int>(bodies.size()) + 1;
   remap::Materials out(mesh.num_cells(), num);
@@ -148,7 +149,7 @@ remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
     const auto add = [&](int material, const Moments& m)
     {
       // Less is round-off of differences of sectors.
-      if (m.v > 1e-11 * whole.v)
+      if (m.v > least * whole.v)
         parts.push_back({material, m.v / whole.v, about + m.centroid()});
     };
     std::vector<remap::Part> others;
