@@ -22,6 +22,7 @@ struct Lvira
 {
   static constexpr std::string_view name = "lvira";
   static constexpr bool uses_centroids = false;
+  static constexpr bool exact = true; ///< for straight interfaces
   static constexpr int sweeps = 0;
 
   template <Geometry G>

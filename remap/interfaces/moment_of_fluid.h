@@ -24,6 +24,7 @@ struct MomentOfFluid
 {
   static constexpr std::string_view name = "moment_of_fluid";
   static constexpr bool uses_centroids = true;
+  static constexpr bool exact = true; ///< for straight interfaces
 
   /// Two parts are taken for a filament from this distance of a centroid, in
   /// spreads of the cell (root mean square of its vertices' distance from the

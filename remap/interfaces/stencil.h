@@ -34,8 +34,8 @@ public:
     _around.resize(most);
   }
 
-  /// Look at a cell. @param[in] x shape (num_nodes, 2) [m]
-  void load(std::int32_t c, std::span<const double> x)
+  /// Look at a cell alone. @param[in] x shape (num_nodes, 2) [m]
+  void load_cell(std::int32_t c, std::span<const double> x)
   {
     const Triple& v = _mesh->cell(c);
     const Triangle t = {point(x, v[0]), point(x, v[1]), point(x, v[2])};
@@ -43,6 +43,11 @@ public:
     _cell.t = {t[0] - _origin, t[1] - _origin, t[2] - _origin};
     _cell.centre = {};
     _numbers = _mesh->cell_cells()[c];
+  }
+  /// And at those around it.
+  void load(std::int32_t c, std::span<const double> x)
+  {
+    load_cell(c, x);
     for (std::size_t j = 0; j < _numbers.size(); ++j)
     {
       const Triple& w = _mesh->cell(_numbers[j]);
@@ -53,24 +58,45 @@ public:
     }
   }
 
-  /// Take the fractions of some materials together.
+  /// Take the fractions of some materials together. Materials that the cell
+  /// itself does not hold count with those of its parts, taken or not, on
+  /// whose side they lie.
   /// @param[in] parts  of the mixed cell
   /// @param[in] wanted a bit for each of these parts
   void take(const Materials& materials, std::span<const Part> parts,
             unsigned wanted)
   {
-    const auto sum = [&](auto&& fraction)
+    const auto is = [&](std::int32_t material)
     {
-      double out = 0;
-      for (unsigned w = wanted; w != 0; w &= w - 1)
-        out += fraction(std::countr_zero(w));
-      return out;
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        if (parts[k].material == material)
+          return static_cast<int>(wanted >> k & 1u);
+      return other;
     };
-    _cell.value = sum([&](int k) { return parts[k].fraction; });
+    _cell.value = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      _cell.value += (wanted >> k & 1u) != 0 ? parts[k].fraction : 0;
+    bool others = false;
     for (std::size_t j = 0; j < _numbers.size(); ++j)
-      _around[j].value =
-          sum([&](int k)
-              { return materials.fraction(_numbers[j], parts[k].material); });
+    {
+      double& value = _around[j].value;
+      if (const std::int32_t m = materials.pure(_numbers[j]); m >= 0)
+      {
+        const int side = is(m);
+        others = others or side == other;
+        value = side == 1;
+        continue;
+      }
+      value = 0;
+      for (const Part& p : materials.parts(materials.row(_numbers[j])))
+      {
+        const int side = is(p.material);
+        others = others or side == other;
+        value += side == 1 ? p.fraction : 0;
+      }
+    }
+    if (others)
+      take_others(materials, is);
   }
 
   /// The mixed cell's centre: coordinates are measured from it.
@@ -86,6 +112,53 @@ public:
   }
 
 private:
+  static constexpr int other = 2;
+
+  template <class Use>
+  void each_part(const Materials& materials, Use&& use) const
+  {
+    for (std::size_t j = 0; j < _numbers.size(); ++j)
+      if (const std::int32_t m = materials.pure(_numbers[j]); m >= 0)
+        use(j, m, 1.0);
+      else
+        for (const Part& p : materials.parts(materials.row(_numbers[j])))
+          use(j, p.material, p.fraction);
+  }
+
+  /// @param[in] is 1: taken, 0: not, `other`
+  template <class Is>
+  void take_others(const Materials& materials, Is&& is)
+  {
+    // Where each side lies on average, and where the material does.
+    std::array<Moments, 2> sides;
+    each_part(materials,
+              [&](std::size_t j, std::int32_t m, double f)
+              {
+                if (const int side = is(m); side != other)
+                  sides[side] += volume(j, f);
+              });
+    const auto mean = [](const Moments& m)
+    { return m.v > 0 ? m.centroid() : Point{}; };
+    const Point from = mean(sides[1]), axis = mean(sides[0]) - from;
+    for (std::int32_t m = 0; m < materials.num_materials(); ++m)
+    {
+      if (is(m) != other)
+        continue;
+      Moments all;
+      each_part(materials, [&](std::size_t j, std::int32_t of, double f)
+                { all += of == m ? volume(j, f) : Moments{}; });
+      if (all.v > 0 and dot(mean(all) - from, axis) < 0.5 * dot(axis, axis))
+        each_part(materials, [&](std::size_t j, std::int32_t of, double f)
+                  { _around[j].value += of == m ? f : 0; });
+    }
+  }
+  [[nodiscard]] Moments volume(std::size_t j, double fraction) const
+  {
+    const Cell& c = _around[j];
+    const double v = fraction * twice_area(c.t[0], c.t[1], c.t[2]);
+    return {v, v * c.centre.x, v * c.centre.y};
+  }
+
   const Mesh* _mesh;
   std::span<const std::int32_t> _numbers;
   Point _origin;

@@ -17,6 +17,7 @@ struct Youngs
 {
   static constexpr std::string_view name = "youngs";
   static constexpr bool uses_centroids = false;
+  static constexpr bool exact = false; ///< for straight interfaces
   static constexpr int sweeps = 0;
 
   /// Normal out of what is taken, any length; 0 if there is no gradient.

@@ -13,6 +13,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from matplotlib.collections import PolyCollection
+
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import common  # noqa: E402
@@ -189,7 +191,7 @@ def picture(tool, name, case, time, n):
             else:
                 colours = [COLOURS[int(v) - 1] for v in values]
             ax.add_collection(
-                common.plt.matplotlib.collections.PolyCollection(
+                PolyCollection(
                     corners, facecolors=colours, edgecolors=colours, linewidths=0.2
                 )
             )
