@@ -619,7 +619,8 @@ def bad_domain():
         for wanted in (
             "cross.txt:1: ring 1: the ring crosses itself near (0.065, 0.065)",
             "did you mean 'cells'",
-            "2 complaints",
+            "domain.logo.file: its rings cross: unite its paths",
+            "3 complaints",
         ):
             hold(said.count(wanted) == 1, f"{ranks} ranks say once: {wanted}")
         hold(not results.exists(), "no results")
