@@ -137,6 +137,7 @@ template <Geometry G>
 void VolumeTransport::find_fronts()
 {
   const Materials& m = *_call.materials;
+  _outline_moved = false;
   for (std::int32_t c : m.mixed())
     add_front<G>(c);
   for (std::int32_t f = 0; f < _mesh->num_facets(); ++f)
@@ -150,7 +151,10 @@ void VolumeTransport::find_fronts()
   }
   for (std::int32_t f : _walk.outline())
     if (outline_moved<G>(f))
+    {
+      _outline_moved = true;
       add_front<G>(_mesh->facet_cells(f)[0]);
+    }
   if (_call.host->cell_halo)
   {
     _flags.assign(_mesh->num_cells(), 0);
@@ -456,7 +460,8 @@ void VolumeTransport::exchange_status()
 bool VolumeTransport::spread_zone()
 {
   const Materials& m = *_call.materials;
-  for (; _spread < _listed.size(); ++_spread)
+  // Those listed on the way are not carried yet.
+  for (const std::size_t end = _listed.size(); _spread < end; ++_spread)
   {
     const std::int32_t d = _listed[_spread];
     if (_status[d] < mixed)
@@ -469,6 +474,11 @@ bool VolumeTransport::spread_zone()
       {
         if (_pure_of[d] != m.pure(e))
           put(e);
+        continue;
+      }
+      if (_outline_moved)
+      {
+        put(e);
         continue;
       }
       if (_status[e] == looked)
@@ -537,48 +547,107 @@ bool VolumeTransport::search_missing()
   return not _queue.empty();
 }
 
-/// What of the old cells is still not found has left the body.
-void VolumeTransport::book_lost()
+/// Volume of an old cell that new cells cover, by looking for them.
+template <Geometry G>
+double VolumeTransport::kept(std::int32_t c)
+{
+  const Triangle t = _walk.place(_call.x_old, c, {});
+  const Triangle from{Point{}, t[1] - t[0], t[2] - t[0]};
+  Polygon<6> p;
+  for (const Point& v : from)
+    p.push(v);
+  _back.meet(_call.x_new, p, from, t[0], c);
+  double sum = 0;
+  for (const auto& [d, cuts] : _back.met())
+  {
+    const bent::Cell target = bent::cell<G>(*_mesh, _call.x_old, _call.x_new,
+                                            _call.facet_volumes, d);
+    bent::Region room[2];
+    sum += bent::moments<G>(
+               *clip_to(target.outline,
+                        _walk.place(_call.x_old, c, target.origin), 7, room),
+               target.origin)
+               .v;
+  }
+  return sum;
+}
+
+/// What of an old cell is not found has left the body: has it?
+template <Geometry G>
+bool VolumeTransport::book_lost(const Front& f)
 {
   const Materials& m = *_call.materials;
-  for (const Front& f : _fronts)
+  const Triangle t = _walk.place(_call.x_old, f.cell, {});
+  const double lost = missing(f), scale = scale_of<G>(t, f.length, 0);
+  if (not(lost > -gap_size * scale))
+    fail(Outcome::inverted_target, f.cell);
+  if (not(lost > round_off * scale))
+    return false;
+  const Triangle place{Point{}, t[1] - t[0], t[2] - t[0]};
+  Polygon<6> p;
+  for (const Point& v : place)
+    p.push(v);
+  _back.meet(_call.x_new, p, place, t[0], f.cell);
+  bool halo = false;
+  std::int32_t facet = edge_inside(_back, _call.x_new, t[0], place, halo);
+  const bool ghosts = _mesh->num_cells() > _mesh->owned_cells();
+  if (halo or (facet < 0 and ghosts and lost > gap_size * scale))
   {
-    if (f.cell >= _mesh->owned_cells())
-      continue;
-    const double lost = missing(f), scale = f.length * f.length;
-    const bool axisymmetric = _options.geometry == Geometry::axisymmetric;
-    const Triangle t = _walk.place(_call.x_old, f.cell, {});
-    const double heavy
-        = scale * (axisymmetric ? weight<Geometry::axisymmetric>(t) : 1);
-    if (not(lost > -gap_size * heavy))
-      fail(Outcome::inverted_target, f.cell);
-    if (not(lost > round_off * heavy))
-      continue;
-    Polygon<6> p;
-    Triangle place;
-    for (int i = 0; i < 3; ++i)
+    fail(Outcome::beyond_halo, f.cell);
+    return false;
+  }
+  if (facet < 0)
+    facet = _back.nearest_outline(_call.x_new, t[0]);
+  const std::int32_t row = m.row(f.cell);
+  for (std::int32_t k = 0; k < f.count; ++k)
+  {
+    const double had = row < 0 ? 1 : m.parts(row)[k].fraction;
+    book(row < 0 ? m.pure(f.cell) : m.parts(row)[k].material, facet, false,
+         had * f.whole - _given[f.first + k]);
+  }
+  return true;
+}
+
+/// Old cells that have lost something; from them on inwards, since the outline
+/// may have moved by more than a cell.
+template <Geometry G>
+void VolumeTransport::book_all_lost()
+{
+  const Host& host = *_call.host;
+  const std::size_t first = _fronts.size();
+  const auto spread = [this](std::int32_t c)
+  {
+    for (std::int32_t e : _mesh->cell_cells()[c])
+      if (e < _mesh->owned_cells())
+        add_front<G>(e);
+  };
+  std::size_t done = 0;
+  bool more = true;
+  while (more)
+  {
+    if (host.cell_halo)
+      _flags.assign(_mesh->num_cells(), 0);
+    for (; done < _fronts.size(); ++done)
     {
-      place[i] = t[i] - t[0];
-      p.push(place[i]);
+      const std::int32_t c = _fronts[done].cell;
+      if (c >= _mesh->owned_cells())
+        continue;
+      if (done >= first)
+        _given[_fronts[done].first] = kept<G>(c);
+      if (not book_lost<G>(_fronts[done]))
+        continue;
+      spread(c);
+      if (host.cell_halo)
+        _flags[c] = 1;
     }
-    _back.meet(_call.x_new, p, place, t[0], f.cell);
-    bool halo = false;
-    std::int32_t facet = edge_inside(_back, _call.x_new, t[0], place, halo);
-    const bool ghosts = _mesh->num_cells() > _mesh->owned_cells();
-    if (halo or (facet < 0 and ghosts and lost > gap_size * heavy))
+    if (host.cell_halo)
     {
-      fail(Outcome::beyond_halo, f.cell);
-      continue;
+      host.update_cells(_flags, 1);
+      for (std::int32_t c = _mesh->owned_cells(); c < _mesh->num_cells(); ++c)
+        if (_flags[c] > 0)
+          spread(c);
     }
-    if (facet < 0)
-      facet = _back.nearest_outline(_call.x_new, t[0]);
-    const std::int32_t row = m.row(f.cell);
-    for (std::int32_t k = 0; k < f.count; ++k)
-    {
-      const double had = row < 0 ? 1 : m.parts(row)[k].fraction;
-      book(row < 0 ? m.pure(f.cell) : m.parts(row)[k].material, facet, false,
-           had * f.whole - _given[f.first + k]);
-    }
+    more = host.max(done < _fronts.size() ? 1.0 : 0.0) > 0;
   }
 }
 
@@ -625,8 +694,8 @@ Outcome VolumeTransport::run(Materials& materials, MaterialLedger& ledger)
     if (not more)
       more = any(search_missing());
   }
-  if (_outcome == Outcome::ok)
-    book_lost();
+  if (not(host.max(static_cast<double>(_outcome)) > 0))
+    book_all_lost<G>();
   _outcome = static_cast<Outcome>(host.max(static_cast<double>(_outcome)));
   if (_outcome != Outcome::ok)
   {

@@ -167,7 +167,12 @@ private:
   bool spread_zone();
   bool search_missing();
   [[nodiscard]] double missing(const Front& front) const;
-  void book_lost();
+  template <Geometry G>
+  [[nodiscard]] double kept(std::int32_t c);
+  template <Geometry G>
+  bool book_lost(const Front& f);
+  template <Geometry G>
+  void book_all_lost();
   void book(std::int32_t material, std::int32_t facet, bool inwards,
             double volume);
   void write(Materials& materials);
@@ -185,6 +190,7 @@ private:
   std::vector<Front> _fronts;
   std::vector<double> _given; ///< by fronts' parts
   std::vector<std::int32_t> _queue, _listed;
+  bool _outline_moved = false; ///< by more than sliding
   std::size_t _spread = 0; ///< of the listed cells, those spread from
   std::vector<Result> _results;
   std::vector<Share> _shares;

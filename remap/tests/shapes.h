@@ -123,9 +123,17 @@ inline std::vector<Body> quarters(Point centre, double r)
   return out;
 }
 
+/// All there is; with `part_in`, half-planes and what they have in common.
+template <remap::Geometry G>
+Moments everything(const Outline& cell, Point about)
+{
+  return remap::polygon::shifted(remap::moments<G>(cell), {-about.x, -about.y});
+}
+
 /// Materials 1, 2, … are bodies that do not overlap, 0 is what is left.
-inline remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
-                            const std::vector<Body>& bodies)
+template <remap::Geometry G = remap::Geometry::plane>
+remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
+                     const std::vector<Body>& bodies)
 {
   const int num = static_cast<int>(bodies.size()) + 1;
   remap::Materials out(mesh.num_cells(), num);
@@ -135,12 +143,12 @@ inline remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
     for (std::int32_t i : mesh.cell(c))
       cell.push(remap::point(x, i));
     const Point about = cell[0];
-    const Moments whole = remap::polygon::shifted(
-        remap::moments<remap::Geometry::plane>(cell), {-about.x, -about.y});
+    const Moments whole = everything<G>(cell, about);
     Moments rest = whole;
     std::vector<remap::Part> parts;
     const auto add = [&](int material, const Moments& m)
     {
+      // Less is round-off of differences of sectors.
       if (m.v > 1e-11 * whole.v)
         parts.push_back({material, m.v / whole.v, about + m.centroid()});
     };
