@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "bridge/domains.h"
 #include "environment.h"
 #include "libraries.h"
 #include "mesh/gmsh.h"
@@ -116,15 +117,19 @@ void print(const std::vector<scene::Complaint>& complaints)
 }
 
 /// Read the scene of every member of the sweep; all complaints of all.
-/// @param meshes null on ranks that leave meshes to rank 0
+/// @param meshes null on ranks that leave files to rank 0
 std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
                            Meshes* meshes,
                            std::vector<scene::Complaint>& complaints)
 {
   scene::OutlineReader read_mesh;
+  scene::DomainReader read_domain;
   if (meshes)
+  {
     read_mesh = [meshes](const scene::Scene& scene)
     { return meshes->of(scene).outline; };
+    read_domain = bridge::outline_of;
+  }
   complaints = file.complaints;
   const scene::Sweep sweep = scene::expand(given.overrides);
   std::ranges::copy(sweep.complaints, std::back_inserter(complaints));
@@ -135,7 +140,7 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
   {
     scene::Reading reading =
         scene::read(file.text, given.scene.string(), member.overrides,
-                    libraries(), read_mesh);
+                    libraries(), read_mesh, read_domain);
     std::ranges::copy(reading.complaints, std::back_inserter(complaints));
     Job job = {.member = member, .scene = std::move(reading.scene)};
     job.described = scene::describe(job.scene);

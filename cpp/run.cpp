@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "run.h"
 
+#include "lay.h"
 #include "monitor.h"
 #include "output/archive.h"
 #include "output/checkpoint.h"
@@ -504,6 +505,8 @@ Result run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
                     if (not options.resume)
                       clear(options);
                   });
+  if (scene.stage.empty())
+    return lay(comm, scene, options);
   return Run(comm, scene, options).go();
 }
 } // namespace mmale

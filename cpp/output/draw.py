@@ -21,6 +21,7 @@ from pathlib import Path
 
 import picture
 from draw_charts import column, draw_chart, draw_panels, draw_together
+from draw_domains import draw_domain
 from draw_fields import draw_field, draw_fields
 from picture import Trouble
 from read_run import read_curves, read_plan
@@ -32,6 +33,7 @@ def run(folder):
     failed = []
     jobs = [(draw_chart, chart) for chart in plan["charts"]]
     jobs += [(draw_field, picture) for picture in plan["fields"]]
+    jobs += [(draw_domain, domain) for domain in plan.get("domains", [])]
     for job, what in jobs:
         try:
             job(folder, plan, what)

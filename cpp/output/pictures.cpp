@@ -229,10 +229,17 @@ std::string to_json(const Pictures& p)
          {"time", std::isfinite(picture.at) ? ordered_json(picture.at)
                                             : ordered_json(nullptr)}});
   }
+  ordered_json domains = ordered_json::array();
+  for (const std::string& name : p.domains)
+    domains.push_back({{"file", name + ".png"},
+                       {"name", name},
+                       {"outline", name + ".txt"},
+                       {"pieces", name + ".vtp"}});
   const ordered_json out = {
       {"title", p.title},           {"axisymmetric", p.axisymmetric},
       {"curves", "curves.csv"},     {"charts", charts},
-      {"field_file", p.field_file}, {"fields", fields}};
+      {"field_file", p.field_file}, {"fields", fields},
+      {"domains", domains}};
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 

@@ -54,6 +54,8 @@ struct Pictures
   std::string field_file = "fields.pvd"; ///< in the folder of the run
   std::string arrows = "velocity";       ///< nodal field drawn as arrows
   bool axisymmetric = false;
+  /// Drawn beside what the mesh cuts out of them, from NAME.txt and NAME.vtp.
+  std::vector<std::string> domains = {};
 };
 
 /// Charts of references: each curve with a reference at a place over that

@@ -111,6 +111,41 @@ def read_grid(file, time):
     )
 
 
+@dataclass
+class Polygons:
+    """Convex polygons in the plane and numbers for each."""
+
+    polygons: list  # of shape (vertices, 2) each [m]
+    data: dict  # name -> shape (polygons,)
+
+
+def read_polygons(file):
+    """A .vtp that the program has written."""
+    piece = parse(file).find("./PolyData/Piece")
+    if piece is None:
+        raise Trouble(f"{file}: no polygons")
+    points = read_arrays(piece.find("Points"))["points"].reshape(-1, 3)[:, :2]
+    topology = read_arrays(piece.find("Polys"))
+    corners = points[topology["connectivity"]]
+    polygons = np.split(corners, topology["offsets"][:-1]) if len(corners) else []
+    return Polygons(polygons, read_arrays(piece.find("CellData")))
+
+
+def read_rings(file):
+    """Rings of a domain's text: a point a line, an empty line between them."""
+    try:
+        parts = Path(file).read_text().strip().split("\n\n")
+    except OSError as error:
+        raise Trouble(f"{file}: {error.strerror}")
+    try:
+        return [
+            np.array([line.split() for line in part.splitlines()], dtype=float)
+            for part in parts
+        ]
+    except ValueError as error:
+        raise Trouble(f"{file}: {error}")
+
+
 def nearest_output(pvd, time):
     """Time and file of the output nearest to a time; None is the last."""
     sets = [

@@ -235,7 +235,8 @@ std::string stage_label(const std::vector<Stage>& stages, std::size_t i)
 }
 
 std::vector<Complaint> check(Scene scene, const Libraries& libraries,
-                             const OutlineReader& read_mesh)
+                             const OutlineReader& read_mesh,
+                             const DomainReader& read_domain)
 {
   Complaints out;
   Checker checker("", out);
@@ -249,6 +250,7 @@ std::vector<Complaint> check(Scene scene, const Libraries& libraries,
   check_solver(scene, out);
   check_remap(scene, libraries, known, out);
   check_tracers(scene, known, out);
+  check_domains(scene, known, read_domain, out);
   check_output(scene, libraries, known, out);
   return out;
 }

@@ -190,10 +190,15 @@ void check_pictures(const Scene& scene, const Libraries& libraries, double end,
   std::vector<std::string> fields = libraries.fields;
   for (const auto& [name, tracer] : scene.tracer)
     fields.push_back(name);
+  if (not scene.domain.empty())
+    fields.clear();
+  for (const auto& [name, domain] : scene.domain)
+    fields.insert(fields.end(), {name, name + "_centroid"});
+  const bool known = not libraries.fields.empty() or not scene.domain.empty();
   for (const auto& [name, picture] : scene.output.picture)
   {
     const std::string key = "output.picture." + name;
-    if (not libraries.fields.empty() and not picture.field.empty()
+    if (known and not picture.field.empty()
         and std::ranges::find(fields, picture.field) == fields.end())
       out.push_back({key + ".field",
                      "no field '" + picture.field + "', "

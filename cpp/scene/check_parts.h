@@ -25,6 +25,9 @@ void check_solver(const Scene& scene, Complaints& out);
 void check_remap(const Scene& scene, const Libraries& libraries,
                  const Outline* outline, Complaints& out);
 void check_tracers(const Scene& scene, const Outline* outline, Complaints& out);
+/// Domains, and what a scene without stages has no use for.
+void check_domains(const Scene& scene, const Outline* outline,
+                   const DomainReader& read_domain, Complaints& out);
 void check_output(const Scene& scene, const Libraries& libraries,
                   const Outline* outline, Complaints& out);
 

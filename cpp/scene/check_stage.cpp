@@ -203,7 +203,7 @@ void check_parameters(const Material& material, const LawInfo& law,
 void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out)
 {
-  if (scene.material.empty() and not scene.motion)
+  if (scene.material.empty() and not scene.motion and scene.domain.empty())
     out.push_back({"material",
                    "missing: a table [material.NAME] with law and its numbers",
                    {}});
@@ -239,7 +239,7 @@ void check_materials(const Scene& scene, const Libraries& libraries,
 
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out)
 {
-  if (scene.stage.empty())
+  if (scene.stage.empty() and scene.domain.empty())
     out.push_back({"stage",
                    "missing: at least one [[stage]] with name, duration and "
                    "step",

@@ -38,4 +38,16 @@ struct Outline
 /// process does it. When the outline has complaints, the rest of it is not
 /// looked at.
 using OutlineReader = std::function<Outline(const Scene&)>;
+
+/// What the checks want to know of a domain's file.
+struct DomainOutline
+{
+  Point low, high; ///< box around it, as it is placed [m]
+  std::vector<Complaint> complaints;
+};
+
+/// Reads the file of a domain; the name is the scene's. When there are
+/// complaints, the rest is not looked at.
+using DomainReader =
+    std::function<DomainOutline(const std::string& name, const Domain&)>;
 } // namespace mmale::scene

@@ -66,7 +66,7 @@ FileText load(const std::filesystem::path& path)
 
 Reading read(std::string_view text, const std::string& file,
              std::span<const Override> overrides, const Libraries& libraries,
-             const OutlineReader& read_mesh)
+             const OutlineReader& read_mesh, const DomainReader& read_domain)
 {
   Reading reading;
   Document document = parse(text, file);
@@ -81,9 +81,13 @@ Reading read(std::string_view text, const std::string& file,
   Filler filler(document.root, "", record);
   keys(filler, reading.scene);
   filler.finish();
-  reading.scene.mesh.folder = std::filesystem::path(file).parent_path();
+  const std::string folder = std::filesystem::path(file).parent_path();
+  reading.scene.mesh.folder = folder;
+  for (auto& [name, domain] : reading.scene.domain)
+    domain.folder = folder;
 
-  for (Complaint& complaint : check(reading.scene, libraries, read_mesh))
+  for (Complaint& complaint :
+       check(reading.scene, libraries, read_mesh, read_domain))
     if (not has_failed(record, complaint.key))
     {
       if (complaint.place.file.empty())

@@ -38,8 +38,10 @@ FileText load(const std::filesystem::path& path);
 /// @param file       its name for messages
 /// @param overrides  changes, in order; the last on a key holds
 /// @param libraries  laws, smoothers and schemes that may be named
-/// @param read_mesh  for a gmsh mesh, see `check`
+/// @param read_mesh    for a gmsh mesh, see `check`
+/// @param read_domain  for domains, see `check`
 Reading read(std::string_view text, const std::string& file,
              std::span<const Override> overrides, const Libraries& libraries,
-             const OutlineReader& read_mesh = {});
+             const OutlineReader& read_mesh = {},
+             const DomainReader& read_domain = {});
 } // namespace mmale::scene

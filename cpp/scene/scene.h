@@ -253,6 +253,21 @@ struct Tracer
                                    ///< "share" of area, or as their "centre"
 };
 
+/// A region bounded by polygons, laid over the mesh of a scene without stages:
+/// partial volumes and centroids of the cells.
+struct Domain
+{
+  std::string file;   ///< an SVG, y turned up, or a text: a point "x y" a line
+  std::string folder; ///< where a relative `file` starts; no key: the reader
+                      ///< puts the scene's own folder
+  double height = 0;  ///< of the box around it [m]; 0: by `scale`
+  double scale = 1;   ///< length of the file's unit [m]
+  std::optional<Point> at; ///< lower left corner of its box [m]; none: the
+                           ///< file's origin stays the origin
+  double tolerance = 0;    ///< chords are no farther from an SVG's curves [m];
+                           ///< 0: 1e-4 of the box's height
+};
+
 /// The body at the start of the run; unstressed.
 struct Initial
 {
@@ -341,9 +356,10 @@ struct Scene
   std::map<std::string, Boundary> boundary;
   std::map<std::string, Material> material;
   std::map<std::string, Tracer> tracer;
+  std::map<std::string, Domain> domain;
   std::optional<Motion> motion;
   Initial initial;
-  std::vector<Stage> stage;
+  std::vector<Stage> stage; ///< none: domains are laid, nothing moves
   Solver solver;
   Remap remap;
   Output output;

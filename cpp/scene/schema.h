@@ -33,7 +33,7 @@ concept OneOf = (std::same_as<T, U> or ...);
 template <class T>
 concept Table =
     OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Dynamics,
-          Stage, Solver, Remap, Tracer, Initial, Motion, Curve, Line,
+          Stage, Solver, Remap, Tracer, Domain, Initial, Motion, Curve, Line,
           ReferenceLine, Chart, Picture, Output, Scene>;
 
 template <class T>
@@ -212,6 +212,27 @@ void keys(V& v, Tracer& t)
      {},
      {"share", "centre"}},
     t.cut_cells);
+}
+
+template <class V>
+void keys(V& v, Domain& d)
+{
+  v({"file",
+     "",
+     "SVG with filled paths (y is turned up), or text with a point x y a line.",
+     {},
+     {},
+     true},
+    d.file);
+  v({"height", "m", "Height of the box around it; 0 means by scale.",
+     at_least(0)},
+    d.height);
+  v({"scale", "m", "Length of the file's unit.", above(0)}, d.scale);
+  v({"at", "m", "Lower left corner of its box; default as in the file."}, d.at);
+  v({"tolerance", "m",
+     "How far chords may be from an SVG's curves; 0: 1e-4 of the height.",
+     at_least(0)},
+    d.tolerance);
 }
 
 template <class V>
@@ -468,6 +489,8 @@ void keys(V& v, Scene& s)
   v({"boundary", "", "Named parts of sides."}, s.boundary);
   v({"material", "", "Materials, by name."}, s.material);
   v({"tracer", "", "Passive scalars carried by the remap, by name."}, s.tracer);
+  v({"domain", "", "Polygons laid over the mesh, without stages, by name."},
+    s.domain);
   v({"motion", "", "A prescribed rigid rotation instead of mechanics."},
     s.motion);
   v({"initial", "", "The body at the start."}, s.initial);

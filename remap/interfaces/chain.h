@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: many parts from volumes alone: cut off one after the other, by an
+// METHOD 4: many parts from volumes alone: cut off one after the other, in an
 // order that geometry gives.
 #pragma once
 
@@ -12,29 +12,31 @@
 
 namespace remap
 {
-/// Order in which parts are cut off: where each material lies on average, in
+/// Parts as they are cut off, the last is what remains.
+using Order = std::array<int, most_parts>;
+
+/// Order in which parts are cut off: by where each material lies on average, in
 /// the cell and around it, along the axis on which these places differ most;
 /// from the end at which the material stands further apart from the next.
-inline std::array<int, most_parts>
-chain_order(Stencil& s, const Materials& materials, std::span<const Part> parts)
+inline Order chain_order(Stencil& s, const Materials& materials,
+                         std::span<const Part> parts)
 {
   const int n = static_cast<int>(parts.size());
   std::array<Point, most_parts> at;
-  std::array<int, most_parts> order{};
-  const Point origin = centroid(s.cell());
+  Order order{};
   Point mean;
   for (int k = 0; k < n; ++k)
   {
     order[k] = k;
     s.take(materials, parts, 1u << k);
-    double sum = s.value() * twice_area(s.cell()[0], s.cell()[1], s.cell()[2]);
+    const auto volume = [](const Stencil::Cell& c)
+    { return c.value * twice_area(c.t[0], c.t[1], c.t[2]); };
+    double sum = volume(s.cell());
     Point moment;
-    for (std::size_t j = 0; j < s.size(); ++j)
+    for (const Stencil::Cell& c : s.around())
     {
-      const Triangle& t = s.cell(j);
-      const double part = s.value(j) * twice_area(t[0], t[1], t[2]);
-      sum += part;
-      moment = moment + part * (centroid(t) - origin);
+      sum += volume(c);
+      moment = moment + volume(c) * c.centre;
     }
     at[k] = 1 / sum * moment;
     mean = mean + 1.0 / n * at[k];
@@ -56,58 +58,63 @@ chain_order(Stencil& s, const Materials& materials, std::span<const Part> parts)
   return order;
 }
 
+/// The order that a chain of cuts was made in.
+inline Order order_of(const Partition& p)
+{
+  Order out{};
+  for (int k = 0; k < p.count; ++k)
+    out[k] = ~p.cuts[k].in;
+  out[p.count] = ~p.cuts[p.count - 1].out;
+  return out;
+}
+
 /// Cuts of a row, each part off what is left of the cell.
 ///
-/// @param[in] normal called with the stencil of what is cut off in all so far;
-///                   out of it, any length
+/// @param[in] s      has looked at the cell
+/// @param[in] normal called with the number of the cut and the parts cut off by
+///                   then, a bit each; out of them, any length
 template <Geometry G, class Normal>
-void chain(Stencil& s, const Materials& materials, std::span<const Part> parts,
+void chain(const Stencil& s, std::span<const Part> parts, const Order& order,
            Normal&& normal, Partition& out)
 {
   const int n = static_cast<int>(parts.size());
-  out.count = 0;
-  std::array<int, most_parts> order = {0, 1};
-  if (n > 2)
-    order = chain_order(s, materials, parts);
-  const Point origin = centroid(s.cell());
+  const Point origin = s.origin();
   Piece rest;
   double left = 1;
   unsigned off = 0;
-  for (const Point& v : s.cell())
-    rest.push(v - origin);
   for (int k = 0; k + 1 < n; ++k)
   {
     off |= 1u << order[k];
-    s.take(materials, parts, off);
-    Point up = normal(s);
-    const double length = std::sqrt(dot(up, up));
-    up = length > 0 ? 1 / length * up : Point{1, 0};
+    const Point up = normal(k, off);
     const double fraction = parts[order[k]].fraction;
+    const bool last = k + 2 == n;
     HalfPlane plane;
-    if (rest.size < 3) // lost to round-off
-      plane = out.cuts[k - 1].plane;
-    else if (G == Geometry::plane and k == 0)
-      plane = place(s.cell(), up, fraction, 1 - fraction);
+    if (k == 0)
+    {
+      if constexpr (G == Geometry::plane)
+        plane = place(s.cell().t, up, fraction, 1 - fraction);
+      else
+        plane = place_fraction<G>(Polygon<3>(s.cell().t), up, fraction,
+                                  1 - fraction, origin.x);
+    }
+    else if (rest.size < 3) // lost to round-off
+      plane = {out.cuts[k - 1].plane.normal, out.cuts[k - 1].plane.at - origin};
     else
     {
-      const double radius = G == Geometry::plane ? 0 : origin.x;
-      const double whole =
-          polygon::fan<G>(rest.x.data(), rest.y.data(), rest.size, radius).v;
       const double part = std::min(1.0, fraction / left);
-      // Counted from the side of the smaller part.
-      const Chord c =
-          part <= 0.5 ? place<G>(rest, up, part * whole, radius)
-                      : place<G>(rest, -1.0 * up, (1 - part) * whole, radius);
-      plane = {up, middle(c.a, c.b) + origin};
+      plane = place_fraction<G>(rest, up, part, 1 - part, origin.x);
     }
-    out.add(
-        {.plane = plane,
-         .in = static_cast<std::int8_t>(~order[k]),
-         .out = static_cast<std::int8_t>(k + 2 < n ? k + 1 : ~order[k + 1])});
-    if (k + 2 == n)
+    out.cuts[k] = {{plane.normal, plane.at + origin},
+                   static_cast<std::int8_t>(~order[k]),
+                   static_cast<std::int8_t>(last ? ~order[k + 1] : k + 1)};
+    out.count = k + 1;
+    if (last)
       break;
     Piece in, behind;
-    split(rest, HalfPlane{plane.normal, plane.at - origin}, in, behind);
+    if (k == 0)
+      for (const Point& v : s.cell().t)
+        rest.push(v);
+    split(rest, plane, in, behind);
     rest = behind;
     left -= fraction;
   }

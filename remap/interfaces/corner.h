@@ -52,15 +52,17 @@ struct Branch
   }
 
   /// Has the quartic three positive roots? Otherwise it has one. By the signs
-  /// of its coefficients and its discriminant.
-  [[nodiscard]] bool folds() const
+  /// of its coefficients and its discriminant, which says that the place lies
+  /// beyond the hyperbola's evolute.
+  /// @param[in] slack relative; > 0: also if it nearly has
+  [[nodiscard]] bool folds(double slack = 0) const
   {
-    const double g = bp * cp, k = fraction * bb * cc;
-    if (not(bp > 0 and cp > 0 and g > 4 * k))
+    const double k = fraction * bb * cc, d = bp * cp - (4 - slack) * k;
+    if (not(bp > 0 and cp > 0 and d > 0))
       return false;
-    const double bp4 = bp * bp * bp * bp, cp4 = cp * cp * cp * cp;
-    return 4 * g * g * g + 6 * k * g * g + 192 * k * k * g - 256 * k * k * k
-           > 27 * fraction * (bb * bb * cp4 + cc * cc * bp4);
+    const double b2 = bb * cp * cp, c2 = cc * bp * bp;
+    const double e = std::max(0.0, std::abs(b2 - c2) - slack * (b2 + c2));
+    return 4 * d * d * d > 27 * fraction * e * e;
   }
 
   /// The root between lo, where the slope is negative, and hi, where it is

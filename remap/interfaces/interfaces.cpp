@@ -8,6 +8,26 @@ namespace remap
 namespace
 {
 constexpr int doubles_per_cut = 6;
+
+/// Do two cuts of chains, numbers k and m, tell the same materials apart? What
+/// is cut off by then and what is not must have something in common, and
+/// nothing may stand on the other side.
+/// @return 1; −1 if they cut off each other's remainders; or 0
+int same_interface(std::span<const Part> a, const Order& order_a, int k,
+                   std::span<const Part> b, const Order& order_b, int m)
+{
+  bool same[2][2] = {};
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (a[order_a[i]].material == b[order_b[j]].material)
+        same[static_cast<int>(i) <= k][static_cast<int>(j) <= m] = true;
+  const bool straight = same[0][0] and same[1][1];
+  const bool crossed = same[0][1] and same[1][0];
+  const bool either = same[0][1] or same[1][0] or crossed;
+  if (straight and not either)
+    return 1;
+  return crossed and not same[0][0] and not same[1][1] ? -1 : 0;
+}
 } // namespace
 
 Interfaces::Interfaces(const Mesh& mesh, InterfaceOptions options)
@@ -16,27 +36,92 @@ Interfaces::Interfaces(const Mesh& mesh, InterfaceOptions options)
 }
 
 template <Geometry G, class Method>
-void Interfaces::cells(std::span<const double> x, const Materials& materials)
+void Interfaces::cells(const Method& method, std::span<const double> x,
+                       const Materials& materials)
 {
-  const auto mixed = materials.mixed();
-  for (std::size_t row = 0; row < mixed.size(); ++row)
+  _report = {};
+  const auto num = static_cast<std::int32_t>(materials.mixed().size());
+  for (std::int32_t row = 0; row < num; ++row)
   {
-    const std::int32_t c = mixed[row];
-    const auto parts = materials.parts(static_cast<std::int32_t>(row));
+    const std::int32_t c = materials.mixed()[row];
+    const auto parts = materials.parts(row);
     if constexpr (Method::uses_centroids)
     {
       const Triple& v = _mesh->cell(c);
-      Method::template solve<G>(
+      const Tally tally = method.template solve<G>(
           {point(x, v[0]), point(x, v[1]), point(x, v[2])}, parts,
           _partitions[row]);
+      if (c < _mesh->owned_cells())
+      {
+        _report.filaments += tally.filaments;
+        _report.unresolved += tally.unresolved;
+        _report.residual = std::max(_report.residual, tally.error);
+      }
     }
     else if (c < _mesh->owned_cells())
     {
       _stencil.load(c, x);
+      Order order = {0, 1};
+      if (parts.size() > 2)
+        order = chain_order(_stencil, materials, parts);
       chain<G>(
-          _stencil, materials, parts,
-          [](const Stencil& s) { return Method::normal(s); }, _partitions[row]);
+          _stencil, parts, order,
+          [&](int, unsigned off)
+          {
+            _stencil.take(materials, parts, off);
+            return Method::template normal<G>(_stencil);
+          },
+          _partitions[row]);
     }
+  }
+  _report.residual = std::sqrt(_report.residual);
+}
+
+template <Geometry G, class Method>
+void Interfaces::sweep(std::span<const double> x, const Materials& materials)
+{
+  // All look at what the last sweep left, whatever the order of cells.
+  const auto num = static_cast<std::int32_t>(materials.mixed().size());
+  _last.resize(_partitions.size());
+  for (std::int32_t row = 0; row < num; ++row)
+  {
+    _last[row].count = _partitions[row].count;
+    std::copy_n(_partitions[row].cuts.begin(), _partitions[row].count,
+                _last[row].cuts.begin());
+  }
+  for (std::int32_t row = 0; row < num; ++row)
+  {
+    const std::int32_t c = materials.mixed()[row];
+    if (c >= _mesh->owned_cells())
+      continue;
+    const auto parts = materials.parts(row);
+    const Partition& old = _last[row];
+    const Order order = order_of(old);
+    _stencil.load_cell(c, x);
+    chain<G>(
+        _stencil, parts, order,
+        [&](int k, unsigned)
+        {
+          const HalfPlane& own = old.cuts[k].plane;
+          typename Method::Ways ways;
+          for (const std::int32_t j : _stencil.numbers())
+            if (const std::int32_t r = materials.row(j); r >= 0)
+            {
+              const Order theirs = order_of(_last[r]);
+              double f = 0;
+              for (int q = 0; q < _last[r].count; ++q)
+              {
+                f += materials.parts(r)[theirs[q]].fraction;
+                const HalfPlane& there = _last[r].cuts[q].plane;
+                if (const int sign = same_interface(
+                        parts, order, k, materials.parts(r), theirs, q))
+                  ways.add(there.at - own.at, f * (1 - f),
+                           static_cast<double>(sign) * there.normal);
+              }
+            }
+          return ways.normal(own.normal);
+        },
+        _partitions[row]);
   }
 }
 
@@ -92,14 +177,28 @@ void Interfaces::reconstruct(std::span<const double> x,
 {
   _partitions.resize(std::max(_partitions.size(), materials.mixed().size()));
   std::visit(
-      [&]<class Method>(const Method&)
+      [&]<class Method>(const Method& method)
       {
-        if (_options.geometry == Geometry::plane)
-          cells<Geometry::plane, Method>(x, materials);
+        const bool plane = _options.geometry == Geometry::plane;
+        if (plane)
+          cells<Geometry::plane, Method>(method, x, materials);
         else
-          cells<Geometry::axisymmetric, Method>(x, materials);
+          cells<Geometry::axisymmetric, Method>(method, x, materials);
         if constexpr (not Method::uses_centroids)
+        {
           fill_ghosts(materials, host);
+          for (int i = 0; i < Method::sweeps; ++i)
+          {
+            if constexpr (Method::sweeps > 0)
+            {
+              if (plane)
+                sweep<Geometry::plane, Method>(x, materials);
+              else
+                sweep<Geometry::axisymmetric, Method>(x, materials);
+            }
+            fill_ghosts(materials, host);
+          }
+        }
       },
       _options.method);
 }

@@ -22,6 +22,15 @@ struct InterfaceOptions
   Reconstruction method = reconstruction::MomentOfFluid{};
 };
 
+/// What `moment_of_fluid` met in this rank's own cells at the last call.
+struct InterfaceReport
+{
+  std::int32_t filaments = 0;  ///< seen, and resolved by two cuts
+  std::int32_t unresolved = 0; ///< seen, and not resolved: corners, mostly
+  /// Largest root of Σ fraction · distance² of centroids [m].
+  double residual = 0;
+};
+
 /// The interfaces of one mesh.
 class Interfaces
 {
@@ -43,15 +52,26 @@ public:
   {
     return _partitions[row];
   }
+  /// Those of all rows, maybe with some behind that mean nothing.
+  [[nodiscard]] std::span<const Partition> partitions() const
+  {
+    return _partitions;
+  }
+
+  [[nodiscard]] const InterfaceReport& report() const { return _report; }
 
 private:
   template <Geometry G, class Method>
-  void cells(std::span<const double> x, const Materials& materials);
+  void cells(const Method& method, std::span<const double> x,
+             const Materials& materials);
+  template <Geometry G, class Method>
+  void sweep(std::span<const double> x, const Materials& materials);
   void fill_ghosts(const Materials& materials, const Host& host);
 
   const Mesh* _mesh;
   InterfaceOptions _options;
-  std::vector<Partition> _partitions;
+  InterfaceReport _report;
+  std::vector<Partition> _partitions, _last;
   Stencil _stencil;
   std::vector<double> _halo; // cuts of all cells, for methods that look around
 };

@@ -67,6 +67,17 @@ inline HalfPlane place(const Triangle& t, Point normal, double fraction,
   return {normal, at};
 }
 
+/// The point of a chord that the line may turn about: to first order, the
+/// volume on its sides stays.
+template <Geometry G>
+inline Point pivot(const Chord& c, double radius)
+{
+  const double a = radius + c.a.x, b = radius + c.b.x;
+  if (G == Geometry::plane or not(a + b > 0))
+    return middle(c.a, c.b);
+  return c.a + (a + 2 * b) / (3 * (a + b)) * (c.b - c.a);
+}
+
 namespace detail
 {
 /// Volume between two levels y = 0 … 1 of a trapezoid of this height, up to y:
@@ -193,5 +204,19 @@ Chord place(const Polygon<N>& p, Point normal, double volume, double radius = 0)
       break;
   }
   return {at.b, at.a};
+}
+
+/// Half-plane with a fraction of a convex polygon; its point is the chord's
+/// pivot. Counted from the side of the smaller part.
+template <Geometry G, int N>
+HalfPlane place_fraction(const Polygon<N>& p, Point normal, double fraction,
+                         double rest, double radius)
+{
+  const double length = std::sqrt(dot(normal, normal));
+  const Point n = length > 0 ? 1 / length * normal : Point{1, 0};
+  const double v = polygon::fan<G>(p.x.data(), p.y.data(), p.size, radius).v;
+  const Chord c = fraction <= rest ? place<G>(p, n, fraction * v, radius)
+                                   : place<G>(p, -1.0 * n, rest * v, radius);
+  return {n, pivot<G>(c, radius)};
 }
 } // namespace remap

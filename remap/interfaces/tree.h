@@ -9,8 +9,14 @@
 // mean), so it bounds what can come of a cut, and few need following. All trees
 // are tried up to `all_trees` parts in a polygon; beyond, the two cuts with the
 // least errors are followed.
+//
+// Two parts that one cut cannot bring near their centroids are a filament, or a
+// corner: then the smaller one may be a strip with the other on both sides.
+// Three parts may meet in a point, in cells of up to `all_trees` parts.
 #pragma once
 
+#include "remap/interfaces/filament.h"
+#include "remap/interfaces/junction.h"
 #include "remap/interfaces/sort.h"
 #include "remap/interfaces/turning.h"
 #include "remap/materials/materials.h"
@@ -42,15 +48,26 @@ inline int append(const Partition& tree, int leaf, Partition& to)
   return first;
 }
 
+/// What became of the parts of a cell.
+struct Tally
+{
+  double error = 0;   ///< Σ fraction · distance² of the centroids [m^2]
+  int filaments = 0;  ///< strips with the same part on both sides
+  int unresolved = 0; ///< pairs of parts that neither a cut nor a strip fits
+};
+
 /// The trees of one cell.
 template <Geometry G>
 class Trees
 {
 public:
-  /// @param[in] cell  counter-clockwise
-  /// @param[in] parts as they shall be
-  Trees(const Triangle& cell, std::span<const Part> parts)
-      : _origin(1.0 / 3 * (cell[0] + cell[1] + cell[2])),
+  /// @param[in] cell     counter-clockwise
+  /// @param[in] parts    as they shall be
+  /// @param[in] filament from how far off, in half-widths of the cell, two
+  /// parts
+  ///                     are taken for a filament
+  Trees(const Triangle& cell, std::span<const Part> parts, double filament)
+      : _filament(filament), _origin(1.0 / 3 * (cell[0] + cell[1] + cell[2])),
         _count(static_cast<int>(parts.size()))
   {
     for (int i = 0; i < _count; ++i)
@@ -72,8 +89,8 @@ public:
       _cell.push(v - _origin);
   }
 
-  /// The best tree; its error, Σ fraction · distance².
-  double solve(Partition& out)
+  /// The best tree.
+  Tally solve(Partition& out)
   {
     Found found;
     divide(_cell, (1u << _count) - 1, found);
@@ -83,25 +100,18 @@ public:
       out.add(found.tree.cuts[i]);
       out.cuts[i].plane.at = out.cuts[i].plane.at + _origin;
     }
-    return found.error;
+    return found;
   }
 
 private:
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  struct Found
+  struct Found : Tally ///< while there is none the error is an upper bound
   {
-    double error = none; ///< on the way in: an upper bound
-    int leaf = 0;        ///< the part, without a cut
+    bool is = false;
+    int leaf = 0; ///< the part, without a cut
     Partition tree;
-
-    void copy(const Found& from)
-    {
-      error = from.error;
-      leaf = from.leaf;
-      tree.count = 0;
-      append(from.tree, 0, tree);
-    }
+    Found() : Tally{.error = none} {}
   };
   struct Way
   {
@@ -165,7 +175,8 @@ private:
       const double error = _parts[part].fraction * dot(off, off);
       if (error < best.error)
       {
-        best.error = error;
+        static_cast<Tally&>(best) = {.error = error};
+        best.is = true;
         best.leaf = _names[part];
         best.tree.count = 0;
       }
@@ -187,6 +198,92 @@ private:
       num = std::min(num, 2);
     for (int k = 0; k < num and ways[k].error < best.error; ++k)
       follow(p, parts, ways[k], best);
+    if (std::popcount(parts) == 2)
+      strip(p, whole, parts, best);
+    if (std::popcount(parts) == 3 and _count <= all_trees)
+      meet(p, whole, parts, best);
+  }
+
+  /// Targets as fractions of a polygon's volume.
+  [[nodiscard]] Target share(int part, double all) const
+  {
+    return {_parts[part].fraction / all, _parts[part].centroid};
+  }
+
+  /// Two parts that one cut does not fit.
+  void strip(const Piece& p, const Moments& whole, unsigned parts,
+             Found& best) const
+  {
+    const int a = std::countr_zero(parts),
+              b = std::countr_zero(parts & (parts - 1));
+    // Parts stand by fraction: a is the smaller one.
+    const double all = _parts[a].fraction + _parts[b].fraction;
+    if (not best.is
+        or not(best.error * _parts[b].fraction
+               > _filament * _filament * least_spread(p) * _parts[a].fraction
+                     * all))
+      return;
+    const Strip found =
+        best_strip<G>(p, whole, share(a, all), share(b, all), radius());
+    if (not(all * found.error < 0.25 * best.error))
+    {
+      best.unresolved = 1;
+      return;
+    }
+    const auto leaf = [this](int part)
+    { return static_cast<std::int8_t>(~_names[part]); };
+    static_cast<Tally&>(best) = {.error = all * found.error, .filaments = 1};
+    best.tree.count = 0;
+    best.tree.add({found.below, leaf(b), 1});
+    best.tree.add({found.upto, leaf(a), leaf(b)});
+  }
+
+  /// Three parts that meet in a point.
+  void meet(const Piece& p, const Moments& whole, unsigned parts,
+            Found& best) const
+  {
+    // What trees bring to round-off needs no other.
+    if (not(best.error > 1e-20 * least_spread(p)))
+      return;
+    std::array<int, 3> part{};
+    std::array<Target, 3> targets;
+    double all = 0;
+    for (int i = 0; i < 3; ++i, parts &= parts - 1)
+    {
+      part[i] = std::countr_zero(parts);
+      all += _parts[part[i]].fraction;
+    }
+    for (int i = 0; i < 3; ++i)
+      targets[i] = share(part[i], all);
+    auto found = best_junction<G>(p, whole, targets, radius(), best.error / all,
+                                  1e-22 * least_spread(p));
+    Partition cuts;
+    if (not found or not(all * found->error < best.error))
+      return;
+    for (int& i : found->part)
+      i = _names[part[i]];
+    if (not found->cuts(cuts))
+      return;
+    static_cast<Tally&>(best) = {.error = all * found->error};
+    best.is = true;
+    best.tree = cuts;
+  }
+
+  /// Least mean square of the distances of vertices from the middle, in any
+  /// direction.
+  [[nodiscard]] static double least_spread(const Piece& p)
+  {
+    Point mean;
+    for (int i = 0; i < p.size; ++i)
+      mean = mean + 1.0 / p.size * p[i];
+    double xx = 0, xy = 0, yy = 0;
+    for (int i = 0; i < p.size; ++i)
+    {
+      const Point d = p[i] - mean;
+      xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+    }
+    // The product of both over their sum: at least half the lesser.
+    return (xx * yy - xy * xy) / ((xx + yy) * p.size);
   }
 
   /// The trees that start with a cut.
@@ -197,13 +294,16 @@ private:
     Found left, right;
     left.error = best.error;
     divide(in, way.in, left);
-    if (not(left.error < best.error))
+    if (not left.is)
       return;
     right.error = best.error - left.error;
     divide(out, parts & ~way.in, right);
-    if (not(left.error + right.error < best.error))
+    if (not right.is or not(left.error + right.error < best.error))
       return;
+    best.is = true;
     best.error = left.error + right.error;
+    best.filaments = left.filaments + right.filaments;
+    best.unresolved = left.unresolved + right.unresolved;
     best.tree.count = 0;
     const int root = best.tree.add({.plane = way.plane});
     const int to_in = append(left.tree, left.leaf, best.tree);
@@ -212,6 +312,7 @@ private:
     best.tree.cuts[root].out = static_cast<std::int8_t>(to_out);
   }
 
+  double _filament;
   Point _origin;
   int _count;
   Piece _cell;

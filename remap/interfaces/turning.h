@@ -13,6 +13,7 @@
 
 #include "remap/interfaces/corner.h"
 #include "remap/interfaces/placement.h"
+#include "remap/interfaces/sort.h"
 
 namespace remap
 {
@@ -169,28 +170,132 @@ struct Best
   }
 };
 
+/// Mean radius of a chord, as if all were there: what the plane's formulas
+/// take.
+template <Geometry G>
+double weight(const Pair<G>& pair, const Chord& c)
+{
+  return G == Geometry::plane ? 1 : pair.radius + 0.5 * (c.a.x + c.b.x);
+}
+
+/// The distance along a pair's chords as a branch of the quartic of corner.h,
+/// and where on the first edge the lines of both edges meet. In axisymmetry as
+/// if all were at the radius of the chord.
+struct Corner
+{
+  tip::Branch branch;
+  double apex, unit; ///< s = apex + unit · distance from there
+
+  /// What is cut off is a corner with a constant part less, or the other way
+  /// round: that shifts the target.
+  /// @return false if the edges are too near to parallel
+  template <Geometry G>
+  bool load(const Pair<G>& pair, const Stand& at)
+  {
+    const Point u = pair.before - pair.first, v = pair.behind - pair.last;
+    apex = cross(pair.last - pair.first, v) / cross(u, v);
+    if (not(std::abs(apex) < 1e5))
+      return false;
+    const Point o = pair.first + apex * u;
+    const Point a = at.chord.a - o, b = at.chord.b - o;
+    const double s = std::sqrt(dot(a, a)), t = std::sqrt(dot(b, b));
+    // > 0: the apex is cut off
+    const double volume = 0.5 * cross(b, a) * weight(pair, at.chord);
+    const Point p = a + b - (3 * pair.volume / volume) * at.off;
+    branch = {1, 1, dot(a, p) / s, dot(b, p) / t, s * t};
+    unit = std::copysign(1 / std::sqrt(dot(u, u)), at.s - apex);
+    return s > 0 and t > 0 and (at.s - apex) * (at.s - apex) > 0;
+  }
+};
+
+/// Chords between which the slope rises all the way, or falls: for parallel
+/// edges, where it is a cubic in s.
+/// @return how many
+template <Geometry G>
+int bends(const Pair<G>& pair, const Stand& at, double* s)
+{
+  const Point u = pair.before - pair.first, w = at.chord.b - at.chord.a;
+  const double q = -cross(w, u) * weight(pair, at.chord) / (6 * pair.volume);
+  const double uu = dot(u, u), wu = dot(w, u);
+  const double d =
+      wu * wu - 2.0 / 3 * uu * (dot(w, w) - 2 * dot(u, at.off) / q);
+  if (not(d > 0))
+    return 0;
+  s[0] = at.s + 0.5 * (wu + std::sqrt(d)) / uu;
+  s[1] = at.s + 0.5 * (wu - std::sqrt(d)) / uu;
+  return 2;
+}
+
+/// Minima between chords of a pair of edges, by the slope's signs at both and
+/// at some places between.
+template <Geometry G>
+void look_between(const Pair<G>& pair, Stand from, const Stand& to,
+                  const double* s, int num, Best& best)
+{
+  for (int i = 0; i <= num; ++i)
+  {
+    if (i < num and not(s[i] < from.s and s[i] > to.s))
+      continue;
+    const Stand next = i < num ? pair.at(s[i]) : to;
+    best.take(next);
+    if (from.slope <= 0 and next.slope >= 0)
+      best.take(pair.minimum(from, next));
+    from = next;
+  }
+}
+
+/// Where to look between two chords, so that signs of the slope tell all: if
+/// the distance folds, seen from a chord on the way, where it should be
+/// stationary.
+template <Geometry G>
+int folds(const Pair<G>& pair, const Stand& at, double* s)
+{
+  constexpr double slack = G == Geometry::plane ? 1e-8 : 0.1;
+  Corner corner;
+  if (not corner.load(pair, at))
+    return bends(pair, at, s);
+  if (not corner.branch.folds(slack))
+    return 0;
+  const double far = corner.branch.largest(),
+               near =
+                   corner.branch.fraction / corner.branch.mirrored().largest();
+  for (int i = 0; const double r : {far, std::sqrt(near * far), near})
+    s[i++] = corner.apex + corner.unit * r;
+  return 3 + bends(pair, at, s + 3);
+}
+
 /// Minima between two chords of a pair of edges.
 template <Geometry G>
 void look(const Pair<G>& pair, const Stand& from, const Stand& to, Best& best,
           int depth = 0)
 {
   best.take(to);
-  if (from.slope <= 0 and to.slope >= 0)
-    best.take(pair.minimum(from, to));
-  if (depth == 2 or not(from.s > to.s))
+  if (not(from.s > to.s))
     return;
-  // A fold: the slope's sign at the ends does not tell all.
-  const bool fold = from.slope_of_slope < 0 or to.slope_of_slope < 0;
-  if (depth > 0 and not fold)
+  if constexpr (G == Geometry::axisymmetric)
+  {
+    // Turns of at most a twentieth of the circle, where the weight does not
+    // change too much.
+    const Point a = from.chord.b - from.chord.a, b = to.chord.b - to.chord.a;
+    const double with = dot(a, b);
+    if (depth < 4
+        and not(with > 0 and with * with >= 0.9 * dot(a, a) * dot(b, b)))
+      if (const double x = pair.between(from.s, to.s); x < from.s and x > to.s)
+      {
+        const Stand mid = pair.at(x);
+        look(pair, from, mid, best, depth + 1);
+        return look(pair, mid, to, best, depth + 1);
+      }
+  }
+  double s[8];
+  int num = 0;
+  const double x = pair.between(from.s, to.s);
+  if (not(x < from.s and x > to.s))
     return;
-  const double s = pair.between(from.s, to.s);
-  if (not(s < from.s and s > to.s))
-    return;
-  const Stand mid = pair.at(s);
-  if (not fold and not(mid.slope_of_slope < 0))
-    return;
-  look(pair, from, mid, best, depth + 1);
-  look(pair, mid, to, best, depth + 1);
+  s[num++] = x;
+  num += folds(pair, pair.at(x), s + num);
+  sort_few(s, num, [](double a, double b) { return a > b; });
+  look_between(pair, from, to, s, num, best);
 }
 
 /// The nearest centroid to the left of a chord.

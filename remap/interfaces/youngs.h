@@ -17,17 +17,19 @@ struct Youngs
 {
   static constexpr std::string_view name = "youngs";
   static constexpr bool uses_centroids = false;
+  static constexpr bool exact = false; ///< for straight interfaces
+  static constexpr int sweeps = 0;
 
   /// Normal out of what is taken, any length; 0 if there is no gradient.
+  template <Geometry G>
   static Point normal(const Stencil& s)
   {
-    const Point at = centroid(s.cell());
     double xx = 0, xy = 0, yy = 0, x = 0, y = 0;
-    for (std::size_t j = 0; j < s.size(); ++j)
+    for (const Stencil::Cell& c : s.around())
     {
-      const Point d = centroid(s.cell(j)) - at;
+      const Point d = c.centre;
       const double weight = 1 / dot(d, d);
-      const double f = weight * (s.value() - s.value(j));
+      const double f = weight * (s.cell().value - c.value);
       xx += weight * d.x * d.x;
       xy += weight * d.x * d.y;
       yy += weight * d.y * d.y;

@@ -1,213 +1,174 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-//
-// Slivers: a part below a stated fraction goes to a cell near by that holds its
-// material, and as much of another material comes back. Volumes of cells, of
-// materials and integrals of fields stay. What each cell does hangs on the
-// state before only, so ranks that see it agree.
 
-#include "remap/materials/transport.h"
+#include "remap/materials/slivers.h"
+
+#include "remap/materials/ghosts.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
 
 using namespace remap;
 
 namespace
 {
-/// Who takes a sliver has so many times as much of both materials.
+/// Who takes part has so many times a sliver of it: all neighbours of a cell
+/// may ask it at once.
 constexpr double plenty = 64;
-/// What a cell chooses: global number of the partner, part, material given
-/// back.
-constexpr int choice_size = 3;
+
+/// A cell gives all it has of one material and gets another for it.
+struct Swap
+{
+  std::int32_t cell, with;
+  std::int32_t gives, gets;
+  double volume;
+};
+
+double largest_common(const Materials& m, std::int32_t c, std::int32_t d,
+                      std::int32_t but, std::int32_t& material)
+{
+  double best = 0;
+  for (const Part& p : m.parts(m.row(c)))
+    if (const double f = std::min(p.fraction, m.fraction(d, p.material));
+        p.material != but and f > best)
+    {
+      best = f;
+      material = p.material;
+    }
+  return best;
+}
+
+/// The exchange that rids a cell of its smallest part, with the neighbour that
+/// has most of what it needs; `with` < 0: none has.
+Swap swap_of(const Mesh& mesh, const Materials& m, std::int32_t c, double least)
+{
+  const auto parts = m.parts(m.row(c));
+  const Part& p = *std::min_element(parts.begin(), parts.end(),
+                                    [](const Part& a, const Part& b)
+                                    { return a.fraction < b.fraction; });
+  Swap out{c, -1, p.material, -1, p.fraction};
+  double best = plenty * least;
+  for (std::int32_t d : mesh.cell_cells()[c])
+  {
+    if (m.row(d) < 0)
+      continue; // it has nothing else to give
+    std::int32_t gets = -1;
+    const double has = std::min(m.fraction(d, p.material),
+                                largest_common(m, c, d, p.material, gets));
+    if (has > best)
+    {
+      best = has;
+      out.with = d;
+      out.gets = gets;
+    }
+  }
+  return out;
+}
+
+Part& part_of(Materials& m, std::int32_t c, std::int32_t material)
+{
+  const auto parts = m.parts(m.row(c));
+  return *std::find_if(parts.begin(), parts.end(), [material](const Part& p)
+                       { return p.material == material; });
+}
+
+/// Rows without their empty parts.
+void drop_empty(Materials& m)
+{
+  struct Row
+  {
+    std::int32_t cell = -1;
+    int count = 0;
+    std::array<Part, most_parts> parts;
+  };
+  std::vector<Row> rows;
+  for (std::int32_t c : m.mixed())
+  {
+    if (m.row(c) < 0)
+      continue;
+    Row& row = rows.emplace_back();
+    row.cell = c;
+    for (const Part& p : m.parts(m.row(c)))
+      if (p.fraction > 0)
+        row.parts[row.count++] = p;
+  }
+  m.drop_rows();
+  for (const Row& row : rows)
+    if (row.count > 1)
+      m.add_row(row.cell, {row.parts.data(), std::size_t(row.count)});
+    else
+      m.set_pure(row.cell, row.parts[0].material);
+}
+
+/// Exchanges that all ranks' cells want, as far as this rank sees them.
+std::vector<Swap> exchanged(const Mesh& mesh, const std::vector<Swap>& ours,
+                            const Host& host)
+{
+  if (not host.cell_halo)
+    return ours;
+  std::vector<double> table(std::size_t(5) * mesh.num_cells());
+  for (const Swap& s : ours)
+  {
+    double* at = &table[std::size_t(5) * s.cell];
+    at[0] = 1, at[1] = static_cast<double>(mesh.cell_ids()[s.with]);
+    at[2] = s.gives, at[3] = s.gets, at[4] = s.volume;
+  }
+  host.update_cells(table, 5);
+  std::vector<Swap> out = ours;
+  for (std::int32_t c = mesh.owned_cells(); c < mesh.num_cells(); ++c)
+  {
+    const double* at = &table[std::size_t(5) * c];
+    if (at[0] == 0)
+      continue;
+    // Only neighbours of ours matter.
+    for (std::int32_t d : mesh.cell_cells()[c])
+      if (static_cast<double>(mesh.cell_ids()[d]) == at[1])
+        out.push_back({c, d, static_cast<std::int32_t>(at[2]),
+                       static_cast<std::int32_t>(at[3]), at[4]});
+  }
+  return out;
+}
 } // namespace
 
-/// The smallest sliver of each cell of ours, and who shall take it.
-bool MaterialTransport::choose(std::span<const double> volume)
+SliverReport
+remap::sweep_slivers(const Mesh& mesh, Materials& materials, double least,
+                     const std::function<double(std::int32_t)>& volume,
+                     const Host& host)
 {
-  const Materials& m = *_materials;
-  const auto held = [&](std::int32_t c, std::int32_t material)
-  { return volume[c] * m.fraction(c, material); };
-  bool any = false;
-  _choice.assign(std::size_t(choice_size) * _mesh->num_cells(), -1);
-  for (std::size_t r = 0; r < m.mixed().size(); ++r)
+  SliverReport report;
+  std::vector<Swap> swaps;
+  for (std::int32_t c : materials.mixed())
   {
-    const std::int32_t c = m.mixed()[r];
-    if (c >= _mesh->owned_cells() or _cv->mark[c] != 1)
+    if (materials.row(c) < 0 or c >= mesh.owned_cells())
       continue;
-    const auto parts = m.parts(static_cast<std::int32_t>(r));
-    const auto least = std::min_element(parts.begin(), parts.end(),
-                                        [](const Part& a, const Part& b)
-                                        { return a.fraction < b.fraction; });
-    if (not(least->fraction < _options.sliver))
+    const auto parts = std::as_const(materials).parts(materials.row(c));
+    if (std::all_of(parts.begin(), parts.end(),
+                    [least](const Part& p) { return p.fraction >= least; }))
       continue;
-    double best = plenty * least->fraction * volume[c];
-    for (std::int32_t d : _mesh->cell_cells()[c])
+    Swap s = swap_of(mesh, materials, c, least);
+    s.volume *= volume(c);
+    if (s.with < 0)
     {
-      if (_cv->mark[d] != 1 or m.row(d) < 0)
-        continue;
-      const double takes = held(d, least->material);
-      for (const Part& back : parts)
-        if (const double room = std::min(takes, held(d, back.material));
-            back.material != least->material
-            and back.fraction >= _options.sliver and room > best)
-        {
-          best = room;
-          double* out = &_choice[std::size_t(choice_size) * c];
-          out[0] = static_cast<double>(_mesh->cell_ids()[d]);
-          out[1] = static_cast<double>(least - parts.begin());
-          out[2] = back.material;
-          any = true;
-        }
-    }
-  }
-  return any;
-}
-
-/// A parcel of one slot for another; its values are those of now.
-void MaterialTransport::send(std::int32_t from, std::int32_t to, double v)
-{
-  const Materials& m = *_materials;
-  const Point at = m.part(from).centroid;
-  for (const bool out : {true, false})
-    _parcels.push_back({out ? from : to, out ? -v : v, at,
-                        static_cast<std::int32_t>(_parcel_values.size())});
-  for (const MaterialField& field : _fields)
-  {
-    const auto n = static_cast<std::size_t>(field.components);
-    const auto* first = &field.values[n * static_cast<std::size_t>(from)];
-    _parcel_values.insert(_parcel_values.end(), first, first + n);
-  }
-}
-
-/// Both sides of every exchange that this rank sees.
-void MaterialTransport::collect_parcels(std::span<const double> volume)
-{
-  const Materials& m = *_materials;
-  _parcels.clear();
-  _parcel_values.clear();
-  std::size_t number = 0;
-  for (std::size_t r = 0; r < m.mixed().size(); ++r)
-  {
-    const std::int32_t c = m.mixed()[r];
-    const double* choice = &_choice[std::size_t(choice_size) * c];
-    if (not(choice[0] >= 0))
+      ++report.kept;
       continue;
-    std::int32_t d = -1;
-    for (std::int32_t e : _mesh->cell_cells()[c])
-      if (_mesh->cell_ids()[e] == static_cast<std::int64_t>(choice[0]))
-        d = e;
-    if (d < 0)
-      continue;
-    const auto back = static_cast<std::int32_t>(choice[2]);
-    const std::int32_t sliver = m.first_slot(static_cast<std::int32_t>(r))
-                                + static_cast<std::int32_t>(choice[1]);
-    const double v = m.part(sliver).fraction * volume[c];
-    const std::int32_t takes = m.slot(d, m.part(sliver).material);
-    const std::int32_t gives = m.slot(d, back);
-    const std::int32_t gets = m.slot(c, back);
-    if (takes < 0 or gives < 0 or gets < 0)
-      continue; // two ghosts that this rank sees in part
-    send(sliver, takes, v);
-    send(gives, gets, v);
-    if (_density >= 0)
-    {
-      const std::vector<double>& rho = _fields[_density].values;
-      note_jump(c, d, v * (rho[sliver] - rho[gives]));
     }
-    if (c < _mesh->owned_cells())
-    {
-      ++number;
-      _swept_volume += v;
-    }
+    ++report.swept;
+    report.volume += s.volume;
+    swaps.push_back(s);
   }
-  _swept_number += static_cast<double>(number);
-}
-
-/// A mass goes from cell c to d, at a node of both.
-void MaterialTransport::note_jump(std::int32_t c, std::int32_t d, double mass)
-{
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (_mesh->cell(c)[i] == _mesh->cell(d)[j])
-      {
-        _jumps.push_back({c, i, mass});
-        _jumps.push_back({d, j, -mass});
-        return;
-      }
-}
-
-/// Put parcels into their slots.
-void MaterialTransport::deliver(std::span<const double> volume,
-                                std::span<const double> y)
-{
-  Materials& m = *_materials;
-  for (const Parcel& p : _parcels)
+  if (not(host.max(swaps.empty() ? 0.0 : 1.0) > 0))
+    return report;
+  for (const Swap& s : exchanged(mesh, swaps, host))
   {
-    const std::int32_t c = m.cell(p.slot);
-    Part& part = m.part(p.slot);
-    const double before = part.fraction * volume[c];
-    const double after = before + p.volume;
-    const bool emptied = -p.volume >= before;
-    part.fraction = emptied ? 0 : after / volume[c];
-    const double weight = emptied ? 0 : p.volume / after;
-    if (p.volume > 0)
-    {
-      const Triple& n = _mesh->cell(c);
-      part.centroid =
-          held_inside({point(y, n[0]), point(y, n[1]), point(y, n[2])},
-                      part.centroid + weight * (p.at - part.centroid));
-    }
-    const double* from = &_parcel_values[static_cast<std::size_t>(p.values)];
-    for (const MaterialField& field : _fields)
-    {
-      const auto n = static_cast<std::size_t>(field.components);
-      double* to = &field.values[n * static_cast<std::size_t>(p.slot)];
-      for (std::size_t k = 0; k < n; ++k)
-        to[k] += weight * (*from++ - to[k]);
-    }
+    Part& gives = part_of(materials, s.cell, s.gives);
+    part_of(materials, s.cell, s.gets).fraction += gives.fraction;
+    gives.fraction = 0;
+    const double part = s.volume / volume(s.with);
+    part_of(materials, s.with, s.gives).fraction += part;
+    part_of(materials, s.with, s.gets).fraction -= part;
   }
-}
-
-/// Sweep up slivers in the cells that changed.
-/// @param[in] volume of cells, now
-void MaterialTransport::sweep_slivers(std::span<const double> volume,
-                                      std::span<const double> y,
-                                      const Host& host)
-{
-  _jumps.clear();
-  if (not(_options.sliver > 0))
-    return;
-  // A cell gives up one sliver at a time.
-  for (int round = 0; round < most_parts; ++round)
-  {
-    if (not(host.max(choose(volume) ? 1.0 : 0.0) > 0))
-      return;
-    host.update_cells(_choice, choice_size);
-    collect_parcels(volume);
-    deliver(volume, y);
-    _entries.clear();
-    for (std::size_t r = 0; r < _materials->mixed().size(); ++r)
-      if (_materials->mixed()[r] < _mesh->owned_cells())
-        keep_row(static_cast<std::int32_t>(r));
-    std::erase_if(_entries,
-                  [](const Entry& e) { return not(e.part.fraction > 0); });
-    exchange_entries(host);
-    assign();
-    for (const MaterialField& field : _fields)
-      update(field.values, field.components, host);
-  }
-}
-
-/// Totals of the call, and slivers that nobody took.
-void MaterialTransport::count(const Host& host)
-{
-  const Materials& m = *_materials;
-  double all[3] = {_swept_number, _swept_volume, 0};
-  for (std::size_t r = 0; r < m.mixed().size(); ++r)
-    if (m.mixed()[r] < _mesh->owned_cells())
-      for (const Part& part : m.parts(static_cast<std::int32_t>(r)))
-        all[2] += part.fraction < _options.sliver ? 1 : 0;
-  host.sum(all);
-  _report.slivers = static_cast<std::int64_t>(all[0]);
-  _report.sliver_volume = all[1];
-  _report.slivers_left = static_cast<std::int64_t>(all[2]);
+  drop_empty(materials);
+  update_ghosts(mesh, materials, host);
+  return report;
 }
