@@ -90,7 +90,7 @@ void check(std::uint64_t first, std::uint64_t count)
                                 << " are not where they should be");
     // Cuts are found for certain up to four parts. The searches for strips and
     // for wedges start from many places, not from all.
-    const double allowed[] = {1e-4, 1e-4, 1e-3, 0.02, 0.01, 0.02};
+    const double allowed[] = {1e-4, 1e-4, 1e-3, 0.01, 0.01, 0.02};
     CHECK(off[kind] <= allowed[kind] * all[kind]);
   }
 }
