@@ -153,7 +153,7 @@ private:
   void set_newcomers();
   void cap(const Host& host);
   void apply_caps();
-  void leave_parts(const Host& host);
+  void leave_parts(std::span<const double> x, const Host& host);
   void write_shares();
   void write(const Share& s);
   void find_rows(std::span<const double> x);
