@@ -83,7 +83,8 @@ struct Pair
     const Point b = last + t * (behind - last);
     const Moments m = core + one + piece<G>(a, last, b, radius);
     out.chord = {a, b};
-    out.off = Point{m.x / volume, m.y / volume} - target;
+    // By its own volume: round-off is the same in both.
+    out.off = (m.v > 0 ? m.centroid() : a) - target;
     const Point way = b - a;
     const double length = std::sqrt(dot(way, way));
     const Point along = (1 / length) * way, up = {-along.y, along.x};

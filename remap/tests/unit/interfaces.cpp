@@ -169,8 +169,10 @@ TEST_CASE("moment of fluid: a triangle's closed form and the turning line "
         best_cut(Triangle{local[0], local[1], local[2]}, in, out);
     const Straight b = best_cut<Geometry::plane>(
         local, moments<Geometry::plane>(local), in, out, 0);
-    INFO("cell " << k);
-    CHECK(std::abs(a.error - b.error) <= 1e-9 * a.error + 1e-28);
+    INFO("cell " << k << ", fraction " << f << ": " << a.error << ", off by "
+                 << a.error - b.error);
+    // Corners of 1e-3 of an edge know their own size to 1e-9 in slivers.
+    CHECK(std::abs(a.error - b.error) <= 1e-8 * a.error + 1e-28);
   }
 }
 
