@@ -51,8 +51,8 @@ Materials strips(const Bench& b, int borders)
     if (strip == borders or hi <= border)
       continue;
     const Moments all = moments<Geometry::plane>(Polygon<3>(t));
-    const Moments in
-        = clipped<Geometry::plane>(t, HalfPlane::below(normal, border));
+    const Moments in =
+        clipped<Geometry::plane>(t, HalfPlane::below(normal, border));
     const Moments rest = all - in;
     Part parts[2] = {{strip % 2, in.v / all.v, in.centroid()},
                      {1 - strip % 2, rest.v / all.v, rest.centroid()}};
@@ -101,8 +101,8 @@ void materials(benchmark::State& state, int borders, Method method)
   }
   state.counters["cells/s"] = benchmark::Counter(
       b.mesh.num_cells(), benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["mixed"]
-      = static_cast<double>(m.mixed().size()) / b.mesh.num_cells();
+  state.counters["mixed"] =
+      static_cast<double>(m.mixed().size()) / b.mesh.num_cells();
 }
 
 void swept(benchmark::State& state)

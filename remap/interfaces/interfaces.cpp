@@ -8,6 +8,26 @@ namespace remap
 namespace
 {
 constexpr int doubles_per_cut = 6;
+
+/// Do two cuts of chains, numbers k and m, tell the same materials apart? What
+/// is cut off by then and what is not must have something in common, and
+/// nothing may stand on the other side.
+/// @return 1; −1 if they cut off each other's remainders; or 0
+int same_interface(std::span<const Part> a, const Order& order_a, int k,
+                   std::span<const Part> b, const Order& order_b, int m)
+{
+  bool same[2][2] = {};
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (a[order_a[i]].material == b[order_b[j]].material)
+        same[static_cast<int>(i) <= k][static_cast<int>(j) <= m] = true;
+  const bool straight = same[0][0] and same[1][1];
+  const bool crossed = same[0][1] and same[1][0];
+  const bool either = same[0][1] or same[1][0] or crossed;
+  if (straight and not either)
+    return 1;
+  return crossed and not same[0][0] and not same[1][1] ? -1 : 0;
+}
 } // namespace
 
 Interfaces::Interfaces(const Mesh& mesh, InterfaceOptions options)
@@ -77,39 +97,26 @@ void Interfaces::sweep(std::span<const double> x, const Materials& materials)
     const auto parts = materials.parts(row);
     const Partition& old = _last[row];
     const Order order = order_of(old);
-    _stencil.load(c, x);
+    _stencil.load_cell(c, x);
     chain<G>(
         _stencil, parts, order,
         [&](int k, unsigned)
         {
           const HalfPlane& own = old.cuts[k].plane;
           typename Method::Ways ways;
-          const auto is_out = [&](std::int32_t material)
-          {
-            for (std::size_t i = k + 1; i < parts.size(); ++i)
-              if (parts[order[i]].material == material)
-                return true;
-            return false;
-          };
           for (const std::int32_t j : _stencil.numbers())
             if (const std::int32_t r = materials.row(j); r >= 0)
             {
-              // The cuts there that tell the same materials apart.
-              const auto theirs = materials.parts(r);
-              const Order chained = order_of(_last[r]);
-              const std::int32_t in = parts[order[k]].material;
+              const Order theirs = order_of(_last[r]);
+              double f = 0;
               for (int q = 0; q < _last[r].count; ++q)
               {
-                const std::int32_t side = theirs[chained[q]].material;
-                bool same = false;
-                for (std::size_t i = q + 1; i < theirs.size(); ++i)
-                {
-                  const std::int32_t other = theirs[chained[i]].material;
-                  same = same or (side == in and is_out(other))
-                         or (other == in and is_out(side));
-                }
-                if (same)
-                  ways.add(_last[r].cuts[q].plane.at - own.at);
+                f += materials.parts(r)[theirs[q]].fraction;
+                const HalfPlane& there = _last[r].cuts[q].plane;
+                if (const int sign = same_interface(
+                        parts, order, k, materials.parts(r), theirs, q))
+                  ways.add(there.at - own.at, f * (1 - f),
+                           static_cast<double>(sign) * there.normal);
               }
             }
           return ways.normal(own.normal);

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // METHOD 4: three parts that meet in a point, each a wedge (Y junction). Half-
-// planes that nest cannot show it. The point and the three directions minimise
-// Σ fraction · distance² of the centroids under the volumes: damped Gauss–
-// Newton steps with derivatives in closed form, then the volumes to round-off.
+// planes that nest cannot show it. With the point and one ray given, the
+// volumes give the other two rays in closed form, so three numbers minimise Σ
+// fraction · distance² of the centroids: damped Gauss–Newton steps with
+// derivatives in closed form, from the best of a scan.
 #pragma once
 
 #include "remap/interfaces/corner.h"
 #include "remap/interfaces/partition.h"
 #include "remap/interfaces/round.h"
+#include "remap/interfaces/sort.h"
+#include "remap/interfaces/turning.h"
 
 #include <numbers>
 #include <optional>
@@ -58,334 +61,334 @@ struct Junction
 
 namespace junction
 {
-constexpr int unknowns = 5, conditions = 8;
-using Step = std::array<double, unknowns>;
+constexpr int unknowns = 3, conditions = 6;
 
-/// Least squares with damping: (JᵀJ + damping · diag) x = −Jᵀ r.
-inline bool solve(const double (&j)[conditions][unknowns],
-                  const double (&r)[conditions], double damping, Step& x)
+/// A point, one of its rays by where it goes, and what follows from them.
+struct Stand
 {
-  double a[unknowns][unknowns + 1] = {};
-  for (int m = 0; m < unknowns; ++m)
-    for (int i = 0; i < conditions; ++i)
-    {
-      for (int n = 0; n < unknowns; ++n)
-        a[m][n] += j[i][m] * j[i][n];
-      a[m][unknowns] -= j[i][m] * r[i];
-    }
-  for (int m = 0; m < unknowns; ++m)
-    a[m][m] *= 1 + damping;
-  for (int m = 0; m < unknowns; ++m)
-  {
-    int pivot = m;
-    for (int n = m + 1; n < unknowns; ++n)
-      pivot = std::abs(a[n][m]) > std::abs(a[pivot][m]) ? n : pivot;
-    std::swap(a[m], a[pivot]);
-    if (not(std::abs(a[m][m]) > 0))
-      return false;
-    for (int n = m + 1; n < unknowns; ++n)
-      for (int k = unknowns; k >= m; --k)
-        a[n][k] -= a[n][m] / a[m][m] * a[m][k];
-  }
-  for (int m = unknowns - 1; m >= 0; --m)
-  {
-    x[m] = a[m][unknowns];
-    for (int n = m + 1; n < unknowns; ++n)
-      x[m] -= a[m][n] * x[n];
-    x[m] /= a[m][m];
-    if (not std::isfinite(x[m]))
-      return false;
-  }
-  return true;
-}
+  Point at;
+  int first = 0;    ///< number of the ray that is given
+  double angle = 0; ///< its direction
+  std::array<int, 3> part{};
+  double error = -1;
+  double r[conditions]; ///< root of the fraction · distance of each centroid
+  Point ends[3];        ///< of the rays, on the outline
+};
 
 template <Geometry G>
 struct Problem
 {
   Piece polygon;                 ///< in round coordinates, as all places here
-  double all, radius, size;      ///< volume; a length of the cell
+  double all, radius;            ///< volume
   std::array<Target, 3> targets; ///< fractions of the polygon
   Round shape;                   ///< back to where distances are measured
 
-  /// Residuals: centroids over the size, weighted; volumes over all, heavier.
-  static constexpr double heavy = 30;
+  [[nodiscard]] int next(int i) const
+  {
+    return i + 1 < polygon.size ? i + 1 : 0;
+  }
 
   [[nodiscard]] bool holds(Point p) const
   {
     for (int i = 0; i < polygon.size; ++i)
-    {
-      const Point a = polygon[i], b = polygon[i + 1 < polygon.size ? i + 1 : 0];
-      if (not(cross(b - a, p - a) > 0))
+      if (const Point a = polygon[i], b = polygon[next(i)];
+          not(cross(b - a, p - a) > 1e-12 * dot(b - a, b - a)))
         return false;
-    }
     return true;
   }
 
-  [[nodiscard]] std::array<Moments, 3> moments(const Junction& y) const
+  /// Rays and residuals from the point and the given ray.
+  /// @return false if the point is not inside
+  bool fill(Stand& y) const
   {
-    std::array<Moments, 3> out{};
-    Partition cuts;
-    if (y.cuts(cuts))
-      split(polygon, cuts,
-            [&](int part, const Piece& p)
-            {
-              out[part] +=
-                  polygon::fan<G>(p.x.data(), p.y.data(), p.size, radius);
-            });
-    return out;
-  }
-
-  double residuals(const Junction& y, double (&r)[conditions]) const
-  {
-    const auto m = moments(y);
-    double sum = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Target& t = targets[k];
-      const double w = 1 / (std::sqrt(t.fraction) * all * size);
-      const Point off = shape.back({w * (m[k].x - m[k].v * t.centroid.x),
-                                    w * (m[k].y - m[k].v * t.centroid.y)});
-      r[2 * k] = off.x;
-      r[2 * k + 1] = off.y;
-      if (k < 2)
-        r[6 + k] = heavy * (m[k].v / all - t.fraction);
-    }
-    for (const double v : r)
-      sum += v * v;
-    return sum;
-  }
-
-  [[nodiscard]] double length(Point from, Point way) const
-  {
-    double out = 1e300;
+    if (not holds(y.at))
+      return false;
+    const Point way = {std::cos(y.angle), std::sin(y.angle)};
+    double reach = 1e300;
+    int edge = 0;
     for (int i = 0; i < polygon.size; ++i)
     {
-      const Point a = polygon[i], b = polygon[i + 1 < polygon.size ? i + 1 : 0];
+      const Point a = polygon[i], b = polygon[next(i)];
       const double slope = cross(b - a, way);
-      if (slope < 0)
-        out = std::min(out, std::max(0.0, cross(b - a, from - a) / -slope));
+      if (const double l = cross(b - a, y.at - a) / -slope;
+          slope < 0 and l < reach)
+        reach = l, edge = i;
     }
-    return out < 1e300 ? out : 0;
+    y.ends[y.first] = y.at + reach * way;
+    y.error = 0;
+    Point from = y.ends[y.first];
+    int walked = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int ray = (y.first + k) % 3, then = (ray + 1) % 3;
+      const Target& t = targets[y.part[ray]];
+      double left = t.fraction * all;
+      Moments m;
+      // Triangles between the point and the outline, until the wedge is full;
+      // the last ends where the first ray does.
+      for (; walked <= polygon.size; ++walked)
+      {
+        const bool home = walked == polygon.size;
+        const Point to = home ? y.ends[y.first] : polygon[next(edge)];
+        const Moments here = turning::piece<G>(y.at, from, to, radius);
+        if (k < 2 and left <= here.v)
+        {
+          const double s = turning::share<G>(y.at, from, to, radius, left);
+          const Point end = from + s * (to - from);
+          m += turning::piece<G>(y.at, from, end, radius);
+          y.ends[then] = from = end;
+          break;
+        }
+        m += here;
+        left -= here.v;
+        from = to;
+        edge = next(edge);
+      }
+      if (k < 2 and walked > polygon.size)
+        return false;
+      const double v = t.fraction * all;
+      const Point off = shape.back(Point{m.x / v, m.y / v} - t.centroid);
+      const double w = std::sqrt(t.fraction);
+      y.r[2 * ray] = w * off.x;
+      y.r[2 * ray + 1] = w * off.y;
+      y.error += t.fraction * dot(off, off);
+    }
+    return std::isfinite(y.error);
   }
 
-  /// @param[out] j residuals by place and angles
-  void derivatives(const Junction& y, double (&j)[conditions][unknowns]) const
+  /// Derivatives of the residuals by the point, and by the volume that all
+  /// rays sweep; and how the given ray turns with them.
+  void derivatives(const Stand& y, double (&j)[conditions][unknowns],
+                   double (&turn)[unknowns]) const
   {
-    for (auto& row : j)
-      std::fill(row, row + unknowns, 0.0);
+    Point gain[3][unknowns]; // of first moments, clockwise of each ray
     for (int i = 0; i < 3; ++i)
     {
-      const Point d = y.ray(i), up = {-d.y, d.x};
-      const double l = length(y.at, d);
+      const Point way = y.ends[i] - y.at;
+      const double l = std::sqrt(dot(way, way));
+      const Point d = 1 / l * way, up = {-d.y, d.x};
       double i0 = l, i1 = l * l / 2, i2 = l * l * l / 3;
       if constexpr (G == Geometry::axisymmetric)
       {
-        const double w = radius + y.at.x, i3 = i2 * l * 0.75;
-        i2 = w * i2 + d.x * i3;
-        i1 = w * i1 + d.x * l * l * l / 3;
-        i0 = w * i0 + d.x * l * l / 2;
+        const double w = radius + y.at.x;
+        i0 = w * l + d.x * i1;
+        i1 = w * i1 + d.x * i2;
+        i2 = w * i2 + d.x * l * l * l * l / 4;
       }
-      // What the wedge clockwise of the ray gains: by the ray's turn, and by
-      // its move along `up`.
-      const Moments turn = {i1, y.at.x * i1 + d.x * i2, y.at.y * i1 + d.y * i2};
-      const Moments move = {i0, y.at.x * i0 + d.x * i1, y.at.y * i0 + d.y * i1};
-      const auto add =
-          [&](int k, double sign, int column, const Moments& m, double by)
+      // A turn sweeps i1, its first moment lies around `pivot`; a move along
+      // `up` sweeps i0, and the turn that takes this back.
+      const Point pivot = y.at + i2 / i1 * d;
+      const Point moved = (i1 - i0 * i2 / i1) * d;
+      gain[i][0] = up.x * moved;
+      gain[i][1] = up.y * moved;
+      gain[i][2] = pivot;
+      if (i == y.first)
       {
-        const Target& t = targets[k];
-        const double w = sign * by / (std::sqrt(t.fraction) * all * size);
-        const Point off = shape.back(
-            {w * (m.x - m.v * t.centroid.x), w * (m.y - m.v * t.centroid.y)});
-        j[2 * k][column] += off.x;
-        j[2 * k + 1][column] += off.y;
-        if (k < 2)
-          j[6 + k][column] += heavy * sign * by * m.v / all;
-      };
-      const int gains = y.part[i == 0 ? 2 : i - 1], loses = y.part[i];
-      for (const auto& [k, sign] : {std::pair{gains, 1.0}, {loses, -1.0}})
-      {
-        add(k, sign, 2 + i, turn, 1);
-        add(k, sign, 0, move, up.x);
-        add(k, sign, 1, move, up.y);
+        turn[0] = -i0 * up.x / i1;
+        turn[1] = -i0 * up.y / i1;
+        turn[2] = 1 / i1;
       }
     }
-  }
-
-  [[nodiscard]] Junction moved(Junction y, const Step& x, double share) const
-  {
-    y.at = y.at + share * Point{x[0], x[1]};
     for (int i = 0; i < 3; ++i)
-      y.angle[i] += share * x[2 + i];
-    return y;
-  }
-
-  /// Newton steps of the least length until the volumes are met.
-  bool fill(Junction& y) const
-  {
-    for (int i = 0; i < 8; ++i)
     {
-      double r[conditions], j[conditions][unknowns];
-      residuals(y, r);
-      if (std::abs(r[6]) + std::abs(r[7]) <= 1e-15 * heavy)
-        return true;
-      derivatives(y, j);
-      double aa = 0, ab = 0, bb = 0;
+      const Target& t = targets[y.part[i]];
+      const double w = std::sqrt(t.fraction) / (t.fraction * all);
       for (int m = 0; m < unknowns; ++m)
       {
-        aa += j[6][m] * j[6][m];
-        ab += j[6][m] * j[7][m];
-        bb += j[7][m] * j[7][m];
+        const Point off =
+            shape.back(w * (gain[i == 2 ? 0 : i + 1][m] - gain[i][m]));
+        j[2 * i][m] = off.x;
+        j[2 * i + 1][m] = off.y;
       }
-      const double det = aa * bb - ab * ab;
-      const double p = (bb * r[6] - ab * r[7]) / det,
-                   q = (aa * r[7] - ab * r[6]) / det;
-      Step x;
-      for (int m = 0; m < unknowns; ++m)
-        x[m] = -(p * j[6][m] + q * j[7][m]);
-      const Junction next = moved(y, x, 1);
-      if (not(std::isfinite(p) and std::isfinite(q)) or not holds(next.at))
-        return false;
-      y = next;
     }
-    double r[conditions];
-    residuals(y, r);
-    return std::abs(r[6]) + std::abs(r[7]) <= 1e-14 * heavy;
   }
 
   /// From a start to a minimum.
-  std::optional<Junction> settle(Junction y) const
+  void settle(Stand& y, double good_enough) const
   {
-    double r[conditions], j[conditions][unknowns];
-    double sum = residuals(y, r), damping = 1e-3;
-    for (int i = 0; i < 200 and sum > 1e-30; ++i)
+    double damping = 1e-3;
+    for (int i = 0; i < 100 and y.error > good_enough; ++i)
     {
-      derivatives(y, j);
-      bool better = false;
-      for (int k = 0; k < 16 and not better; ++k, damping *= better ? 1 : 10)
+      // The longest ray is the one to follow.
+      for (int k = 0; k < 3; ++k)
+        if (const Point a = y.ends[k] - y.at, b = y.ends[y.first] - y.at;
+            dot(a, a) > dot(b, b))
+          y.first = k;
+      const Point way = y.ends[y.first] - y.at;
+      y.angle = std::atan2(way.y, way.x);
+      double j[conditions][unknowns], turn[unknowns] = {};
+      derivatives(y, j, turn);
+      const double before = y.error;
+      for (int k = 0; k < 12; ++k, damping *= 10)
       {
-        Step x;
-        if (not solve(j, r, damping, x))
+        double x[unknowns];
+        if (not solve(j, y.r, damping, x))
           continue;
-        double most = 0;
-        for (const double v : x)
-          most = std::max(most, std::abs(v));
-        const Junction next = moved(y, x, most > 0.5 ? 0.5 / most : 1);
-        double s[conditions];
-        if (not holds(next.at))
-          continue;
-        if (const double now = residuals(next, s); now < sum)
+        double angle = 0;
+        for (int m = 0; m < unknowns; ++m)
+          angle += turn[m] * x[m];
+        const double most =
+            std::max({std::abs(x[0]) / 0.3, std::abs(x[1]) / 0.3,
+                      std::abs(angle) / 0.5});
+        const double share = most > 1 ? 1 / most : 1;
+        Stand trial = y;
+        trial.at = y.at + share * Point{x[0], x[1]};
+        trial.angle = y.angle + share * angle;
+        if (fill(trial) and trial.error < y.error)
         {
-          better = sum - now > 1e-12 * sum;
-          y = next, sum = now;
-          std::copy(s, s + conditions, r);
-          if (not better)
-            break;
+          y = trial;
+          break;
         }
       }
-      if (not better)
+      if (not(y.error < (1 - 1e-9) * before))
         break;
       damping = std::max(1e-9, 0.05 * damping);
     }
-    if (not holds(y.at) or not fill(y))
-      return {};
-    const auto m = moments(y);
-    y.error = 0;
-    for (int k = 0; k < 3; ++k)
+  }
+
+  /// Least squares with damping: (JᵀJ + damping · diag) x = −Jᵀ r.
+  static bool solve(const double (&j)[conditions][unknowns],
+                    const double (&r)[conditions], double damping,
+                    double (&x)[unknowns])
+  {
+    double a[unknowns][unknowns] = {}, b[unknowns] = {};
+    for (int m = 0; m < unknowns; ++m)
+      for (int i = 0; i < conditions; ++i)
+      {
+        for (int n = 0; n < unknowns; ++n)
+          a[m][n] += j[i][m] * j[i][n];
+        b[m] -= j[i][m] * r[i];
+      }
+    for (int m = 0; m < unknowns; ++m)
+      a[m][m] *= 1 + damping;
+    // Cholesky.
+    for (int m = 0; m < unknowns; ++m)
     {
-      if (not(m[k].v > 0))
-        return {};
-      const Point off = shape.back(m[k].centroid() - targets[k].centroid);
-      y.error += targets[k].fraction * dot(off, off);
+      for (int n = 0; n <= m; ++n)
+      {
+        double sum = a[m][n];
+        for (int k = 0; k < n; ++k)
+          sum -= a[m][k] * a[n][k];
+        if (m != n)
+          a[m][n] = sum / a[n][n];
+        else if (not(sum > 0))
+          return false;
+        else
+          a[m][m] = std::sqrt(sum);
+      }
+      for (int k = 0; k < m; ++k)
+        b[m] -= a[m][k] * b[k];
+      b[m] /= a[m][m];
     }
-    return y;
+    for (int m = unknowns - 1; m >= 0; --m)
+    {
+      for (int k = m + 1; k < unknowns; ++k)
+        b[m] -= a[k][m] * b[k];
+      x[m] = b[m] /= a[m][m];
+    }
+    return std::isfinite(x[0]) and std::isfinite(x[1]) and std::isfinite(x[2]);
+  }
+
+  /// The best of a scan over points, rays and both ways around.
+  int scan(Stand* best, int most) const
+  {
+    Point small, mean;
+    double sum = 0;
+    for (const Target& t : targets)
+    {
+      small = small + 1 / t.fraction * t.centroid;
+      sum += 1 / t.fraction;
+      mean = mean + 1.0 / 3 * t.centroid;
+    }
+    small = 1 / sum * small;
+    int found = 0;
+    const auto look = [&](Point at)
+    {
+      constexpr int rays = 12;
+      for (int k = 0; k < 2 * rays; ++k)
+      {
+        Stand y;
+        y.at = at;
+        y.angle = 2 * std::numbers::pi * k / rays;
+        y.part = k < rays ? std::array{0, 1, 2} : std::array{0, 2, 1};
+        if (not fill(y))
+          continue;
+        if (found < most)
+          best[found++] = y;
+        else if (y.error < best[found - 1].error)
+          best[found - 1] = y;
+        for (int i = found - 1; i > 0 and best[i].error < best[i - 1].error;
+             --i)
+          std::swap(best[i], best[i - 1]);
+      }
+    };
+    look(mean);
+    look(small);
+    for (int i = 0; i < 6; ++i)
+      look(mean + (i < 3 ? 0.4 : -0.4) * (targets[i % 3].centroid - mean));
+    for (int i = 0; i < polygon.size; ++i)
+    {
+      look(mean + 0.8 * (polygon[i] - mean));
+      look(mean + 0.85 * (middle(polygon[i], polygon[next(i)]) - mean));
+    }
+    return found;
   }
 };
 } // namespace junction
 
-/// Three wedges for three parts; nothing if none is found.
+/// Three wedges for three parts; nothing if there is no such thing.
 ///
-/// @param[in] p       counter-clockwise, measured from a point at `radius`
-/// @param[in] whole   volume and first moments of p
-/// @param[in] targets fractions of p, centroids
+/// @param[in] p           counter-clockwise, measured from a point at `radius`
+/// @param[in] targets     fractions of p, centroids
+/// @param[in] good_enough an error at which the search may end
 template <Geometry G>
-std::optional<Junction> best_junction(const Piece& p, const Moments& whole,
+std::optional<Junction> best_junction(const Piece& p,
                                       const std::array<Target, 3>& targets,
                                       double radius, double good_enough)
 {
   const Round shape(p);
-  junction::Problem<G> problem = {{}, 0,       shape.scaled(radius),
-                                  0,  targets, shape};
+  junction::Problem<G> problem = {{}, 0, shape.scaled(radius), targets, shape};
   for (int i = 0; i < p.size; ++i)
     problem.polygon.push(shape.to(p[i]));
   const Piece& q = problem.polygon;
   problem.all =
       polygon::fan<G>(q.x.data(), q.y.data(), q.size, problem.radius).v;
-  problem.size = std::sqrt(whole.v / problem.all);
   for (Target& t : problem.targets)
     t.centroid = shape.to(t.centroid);
-  Junction start;
-  const Point g[3] = {targets[0].centroid, targets[1].centroid,
-                      targets[2].centroid};
-  if (cross(g[1] - g[0], g[2] - g[0]) < 0)
-    start.part = {0, 2, 1};
-  const Point mean = 1.0 / 3 * (g[0] + g[1] + g[2]);
-  std::optional<Junction> best;
-  // From between the centroids, nearer to those of small parts, to each of
-  // them, and further from them.
-  Point small;
-  double sum = 0;
-  for (const Target& t : problem.targets)
+  std::array<junction::Stand, 8> stands;
+  const int found = problem.scan(stands.data(), 8);
+  if (found == 0)
+    return {};
+  int best = 0;
+  // First with distances in round coordinates: in slivers the others tell the
+  // search next to nothing across.
+  junction::Problem<G> rounded = problem;
+  rounded.shape = {};
+  for (int i = 0; i < found; ++i)
   {
-    small = small + 1 / t.fraction * t.centroid;
-    sum += 1 / t.fraction;
-  }
-  const auto place = [&](int i)
-  {
-    if (i == 0)
-      return 1 / sum * small;
-    if (i == 1)
-      return mean;
-    if (i < 8)
-      return mean + (i < 5 ? 0.4 : -0.4) * (g[(i - 2) % 3] - mean);
-    // Near vertices and the middles of edges.
-    const int k = (i - 8) / 2, l = k + 1 < q.size ? k + 1 : 0;
-    const Point edge = i % 2 == 0 ? q[k] : middle(q[k], q[l]);
-    return mean + 0.8 * (edge - mean);
-  };
-  for (int i = 0; i < 8 + 2 * q.size; ++i)
-  {
-    start.at = place(i);
-    if (not problem.holds(start.at))
-      continue;
-    // Rays half-way between the ways to the centroids beside them.
-    double to[3];
-    for (int k = 0; k < 3; ++k)
+    junction::Stand y = stands[i];
+    if (rounded.fill(y))
     {
-      const Point d = g[start.part[k]] - start.at;
-      to[k] = std::atan2(d.y, d.x);
+      rounded.settle(y, 1e-30);
+      if (problem.fill(y) and y.error < stands[i].error)
+        stands[i] = y;
     }
-    for (int k = 0; k < 3; ++k)
-    {
-      const double from = to[k == 0 ? 2 : k - 1];
-      double turn = std::remainder(to[k] - from, 2 * std::numbers::pi);
-      turn += turn < 0 ? 2 * std::numbers::pi : 0;
-      start.angle[k] = from + 0.5 * turn;
-    }
-    if (const auto y = problem.settle(start);
-        y and (not best or y->error < best->error))
-      best = y;
-    if (best and best->error <= good_enough)
+    problem.settle(stands[i], good_enough);
+    if (stands[i].error < stands[best].error)
+      best = i;
+    if (stands[best].error <= good_enough)
       break;
   }
-  if (best)
+  const junction::Stand& y = stands[best];
+  Junction out;
+  out.at = shape.back(y.at);
+  out.part = y.part;
+  out.error = y.error;
+  for (int i = 0; i < 3; ++i)
   {
-    for (int i = 0; i < 3; ++i)
-    {
-      const Point d = shape.back(best->ray(i));
-      best->angle[i] = std::atan2(d.y, d.x);
-    }
-    best->at = shape.back(best->at);
+    const Point d = shape.back(y.ends[i] - y.at);
+    out.angle[i] = std::atan2(d.y, d.x);
   }
-  return best;
+  return out;
 }
 } // namespace remap

@@ -14,6 +14,7 @@ namespace remap
 class Round
 {
 public:
+  Round() = default; ///< as it is
   template <int N>
   explicit Round(const Polygon<N>& p)
   {
@@ -50,6 +51,6 @@ public:
   [[nodiscard]] double scaled(double radius) const { return radius / _xx; }
 
 private:
-  double _xx, _yx, _yy;
+  double _xx = 1, _yx = 0, _yy = 1;
 };
 } // namespace remap

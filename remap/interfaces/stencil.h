@@ -34,8 +34,8 @@ public:
     _around.resize(most);
   }
 
-  /// Look at a cell. @param[in] x shape (num_nodes, 2) [m]
-  void load(std::int32_t c, std::span<const double> x)
+  /// Look at a cell alone. @param[in] x shape (num_nodes, 2) [m]
+  void load_cell(std::int32_t c, std::span<const double> x)
   {
     const Triple& v = _mesh->cell(c);
     const Triangle t = {point(x, v[0]), point(x, v[1]), point(x, v[2])};
@@ -43,6 +43,11 @@ public:
     _cell.t = {t[0] - _origin, t[1] - _origin, t[2] - _origin};
     _cell.centre = {};
     _numbers = _mesh->cell_cells()[c];
+  }
+  /// And at those around it.
+  void load(std::int32_t c, std::span<const double> x)
+  {
+    load_cell(c, x);
     for (std::size_t j = 0; j < _numbers.size(); ++j)
     {
       const Triple& w = _mesh->cell(_numbers[j]);

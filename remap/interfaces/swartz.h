@@ -21,7 +21,7 @@ struct Swartz
   static constexpr bool exact = true; ///< for straight interfaces
   /// Each costs about what Youngs' does; with fewer, straight interfaces are
   /// not exact.
-  static constexpr int sweeps = 25;
+  static constexpr int sweeps = 5;
 
   template <Geometry G>
   static Point normal(const Stencil& s)
@@ -33,23 +33,32 @@ struct Swartz
   struct Ways
   {
     double xx = 0, xy = 0, yy = 0;
-    void add(Point d)
+    Point side;
+    /// @param[in] trust  small where an interface is short, and its direction
+    ///                   poor to start with
+    /// @param[in] normal of the interface there
+    void add(Point d, double trust, Point normal)
     {
-      const double w = 1 / dot(d, d);
+      side = side + trust * normal;
+      const double w = trust / dot(d, d);
       if (not(w < 1e300))
         return;
       xx += w * d.x * d.x;
       xy += w * d.x * d.y;
       yy += w * d.y * d.y;
     }
-    /// Normal of the line with the least squares, on the side of the old one.
+    /// Normal of the line with the least squares, on the side of the others.
     [[nodiscard]] Point normal(Point old) const
     {
       if (not(xx + yy > 0))
         return old;
-      const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-      const Point n = {-std::sin(angle), std::cos(angle)};
-      return dot(n, old) < 0 ? -1.0 * n : n;
+      // Along the eigenvector of the larger eigenvalue.
+      const double half = 0.5 * (xx - yy),
+                   root = std::sqrt(half * half + xy * xy);
+      const Point along =
+          half > 0 ? Point{half + root, xy} : Point{xy, root - half};
+      const Point n = {-along.y, along.x};
+      return dot(n, side) < 0 ? -1.0 * n : n;
     }
   };
 };

@@ -12,7 +12,7 @@
 //
 // Two parts that one cut cannot bring near their centroids are a filament, or a
 // corner: then the smaller one may be a strip with the other on both sides.
-// Three parts may meet in a point.
+// Three parts may meet in a point, in cells of up to `all_trees` parts.
 #pragma once
 
 #include "remap/interfaces/filament.h"
@@ -200,8 +200,8 @@ private:
       follow(p, parts, ways[k], best);
     if (std::popcount(parts) == 2)
       strip(p, whole, parts, best);
-    if (std::popcount(parts) == 3)
-      meet(p, whole, parts, best);
+    if (std::popcount(parts) == 3 and _count <= all_trees)
+      meet(p, parts, best);
   }
 
   /// Targets as fractions of a polygon's volume.
@@ -239,8 +239,7 @@ private:
   }
 
   /// Three parts that meet in a point.
-  void meet(const Piece& p, const Moments& whole, unsigned parts,
-            Found& best) const
+  void meet(const Piece& p, unsigned parts, Found& best) const
   {
     // What trees bring to round-off needs no other.
     if (not(best.error > 1e-20 * least_spread(p)))
@@ -256,7 +255,7 @@ private:
     for (int i = 0; i < 3; ++i)
       targets[i] = share(part[i], all);
     auto found =
-        best_junction<G>(p, whole, targets, radius(), 1e-22 * least_spread(p));
+        best_junction<G>(p, targets, radius(), 1e-28 * least_spread(p));
     Partition cuts;
     if (not found or not(all * found->error < best.error))
       return;

@@ -201,10 +201,12 @@ void MaterialTransport::write(const Share& s)
   pieces.at[p] = s.at;
 }
 
-/// What leaves each part, and where what remains lies. A part that leaves its
-/// cell wholly must leave with all its first moment, or what a linear function
-/// gives its pieces would not be what it held: they are shifted together.
-void MaterialTransport::leave_parts(const Host& host)
+/// What leaves each part, and where what remains lies: in the cell. Where the
+/// pieces' places say otherwise, because interfaces are not quite where the
+/// centroids were, or because regions were cut each for itself, the pieces of a
+/// part are shifted together. So a part that leaves wholly takes its first
+/// moment along, and all that a linear function makes of it.
+void MaterialTransport::leave_parts(std::span<const double> x, const Host& host)
 {
   ControlVolumes& cv = *_cv;
   for (const Share& s : _shares)
@@ -218,20 +220,29 @@ void MaterialTransport::leave_parts(const Host& host)
     if (not cv.ours(slot))
       continue;
     const double rest = cv.volume[slot] - cv.leaving[slot];
-    if (rest > wholly * cv.volume[slot]
-        and rest > round_off * cv.volume[cell_of(slot)])
+    const bool some = rest > wholly * cv.volume[slot]
+                      and rest > round_off * cv.volume[cell_of(slot)];
+    // First moments of what remains, as pieces say and as it shall be.
+    const Point told = cv.remains[slot];
+    Point held;
+    if (some)
     {
-      cv.remains[slot] = (1 / rest) * cv.remains[slot];
-      continue;
+      const Triple& n = _mesh->cell(cell_of(slot));
+      const Point own = cv.centroid[slot], at = own + (1 / rest) * told;
+      const Point in =
+          held_inside({point(x, n[0]), point(x, n[1]), point(x, n[2])}, at);
+      cv.remains[slot] = in - own;
+      held = in == at ? told : rest * (in - own);
     }
-    if (cv.leaving[slot] > 0)
+    else
+      cv.remains[slot] = {};
+    if (cv.leaving[slot] > 0 and not(held == told))
     {
-      const Point shift = (1 / cv.leaving[slot]) * cv.remains[slot];
+      const Point shift = (1 / cv.leaving[slot]) * (told - held);
       _shift[std::size_t(2) * slot] = shift.x;
       _shift[std::size_t(2) * slot + 1] = shift.y;
       any = 1;
     }
-    cv.remains[slot] = {};
   }
   if (not(host.max(any) > 0))
     return;
@@ -375,7 +386,7 @@ void MaterialTransport::open(std::span<const double> x,
   set_parts(cv.volume);
   cap(host);
   set_newcomers();
-  leave_parts(host);
+  leave_parts(x, host);
   write_shares();
   find_rows(x);
   cv.kinds.swap(_kinds);

@@ -188,9 +188,12 @@ void MaterialTransport::exchange_entries(const Host& host)
         and (_materials->row(c) >= 0
              or _materials->pure(c) != static_cast<std::int32_t>(code[c])))
       ghosts.push_back({c, -1, {static_cast<std::int32_t>(code[c]), 1, {}}});
-  std::stable_sort(ghosts.begin(), ghosts.end(),
-                   [](const Entry& a, const Entry& b)
-                   { return a.cell < b.cell; });
+  std::sort(ghosts.begin(), ghosts.end(),
+            [](const Entry& a, const Entry& b)
+            {
+              return std::pair(a.cell, a.part.material)
+                     < std::pair(b.cell, b.part.material);
+            });
   _entries.insert(_entries.end(), ghosts.begin(), ghosts.end());
 }
 

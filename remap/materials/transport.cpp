@@ -205,7 +205,12 @@ void MaterialTransport::carry(std::span<const double> x,
   book_volumes(book);
   const Halo halo = [this, &host](std::span<double> values, int block)
   { update(values, block, host); };
-  const Halo none = [](std::span<double>, int) {};
+  const bool bounded =
+      std::visit([]<class S>(const S&) { return S::bounded; }, scheme);
+  const bool extends =
+      std::visit([]<class S>(const S&) { return S::limiter::extends; }, scheme);
+  if (bounded)
+    find_thin();
   auto entry = static_cast<std::size_t>(_options.number);
   if (amounts)
   {
@@ -217,6 +222,8 @@ void MaterialTransport::carry(std::span<const double> x,
     const bool noted = amounts and static_cast<int>(f) == _density;
     const std::size_t size = static_cast<std::size_t>(_options.number)
                              * static_cast<std::size_t>(_fields[f].components);
+    if (bounded)
+      note_ranges(_fields[f]);
     carry_field(*_cv, over_slots(_fields[f]),
                 {.scheme = scheme,
                  .boundaries = _boundaries,
@@ -225,6 +232,8 @@ void MaterialTransport::carry(std::span<const double> x,
                  .amounts = noted ? amounts : nullptr,
                  .fill_ghosts = false},
                 book.subspan(entry, size));
+    if (bounded)
+      hold_thin(_fields[f], extends);
     entry += size;
   }
   if (amounts)

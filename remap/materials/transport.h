@@ -103,6 +103,15 @@ private:
     double volume;
     Point at;
   };
+  /// A slot of which little is left: round-off of what was there speaks in its
+  /// values.
+  struct Thin
+  {
+    std::int32_t slot = -1;
+    std::vector<std::int32_t> givers = {}; ///< slots that gave to it
+    bool given = false;                    ///< did an inflow?
+    std::size_t first = 0, last = 0;       ///< rows of `_ranges`
+  };
   /// A parcel that comes to a slot, or (volume < 0) leaves it.
   struct Parcel
   {
@@ -144,11 +153,22 @@ private:
   void set_newcomers();
   void cap(const Host& host);
   void apply_caps();
-  void leave_parts(const Host& host);
+  void leave_parts(std::span<const double> x, const Host& host);
   void write_shares();
   void write(const Share& s);
   void find_rows(std::span<const double> x);
   void restore();
+
+  // thin.cpp
+  void find_thin();
+  void note_ranges(const MaterialField& field);
+  void hold_thin(const MaterialField& field, bool extends) const;
+  [[nodiscard]] double part_in_range(const Thin& t, std::size_t n,
+                                     std::size_t first, int group,
+                                     const double* u, double more) const;
+  template <int N>
+  [[nodiscard]] double part_in_hull(const Thin& t, std::size_t n,
+                                    std::size_t first, const double* u) const;
 
   // settle.cpp
   void update(std::span<double> values, int block, const Host& host);
@@ -203,6 +223,8 @@ private:
                               // old centroid
   std::vector<double> _caps;  // scale and share of each slot
   std::vector<double> _shift; // of the pieces of each slot
+  std::vector<Thin> _thin;
+  std::vector<double> _ranges; // old values in and around thin slots
   std::vector<Entry> _entries;
   std::vector<double> _buffer, _sent, _choice;
   std::vector<Parcel> _parcels;

@@ -125,8 +125,7 @@ public:
     const double begin = now();
     for (std::int32_t i = 0; i < mesh->num_nodes(); ++i)
     {
-      const Point p
-          = traced_back(flow, remap::point(home, i), t + dt, dt);
+      const Point p = traced_back(flow, remap::point(home, i), t + dt, dt);
       before[2 * i] = p.x;
       before[2 * i + 1] = p.y;
     }
@@ -139,10 +138,11 @@ public:
     const double flown = now();
     interfaces.reconstruct(home, materials, *host);
     const double made = now();
-    const auto outcome = transport.carry(
-        home, before, options.bend ? std::span<const double>(swept)
-                                   : std::span<const double>(),
-        interfaces.partitions(), materials, *host, ledger);
+    const auto outcome =
+        transport.carry(home, before,
+                        options.bend ? std::span<const double>(swept)
+                                     : std::span<const double>(),
+                        interfaces.partitions(), materials, *host, ledger);
     const double carried = now();
     remap::move(*mesh, options.interfaces.geometry, before, home, materials);
     seconds.flow += flown - begin;
@@ -156,8 +156,7 @@ public:
   remap::Outcome run(const Flow& flow, double time, int steps, double from = 0)
   {
     for (int k = 0; k < steps; ++k)
-      if (const auto out
-          = step(flow, from + k * time / steps, time / steps);
+      if (const auto out = step(flow, from + k * time / steps, time / steps);
           out != remap::Outcome::ok)
         return out;
     return remap::Outcome::ok;
@@ -202,8 +201,7 @@ inline double error(const remap::Mesh& mesh, std::span<const double> x,
   remap::cell_volumes(mesh, remap::Geometry::plane, x, v);
   double sum = 0;
   for (std::int32_t c = 0; c < mesh.owned_cells(); ++c)
-    sum += v[c]
-           * std::abs(a.fraction(c, material) - b.fraction(c, material));
+    sum += v[c] * std::abs(a.fraction(c, material) - b.fraction(c, material));
   return sum;
 }
 } // namespace eulerian

@@ -16,14 +16,13 @@ namespace filled
 {
 using namespace remap;
 
-/// Smallest fraction that becomes a part of its own.
-inline constexpr double smallest = 1e-13;
-
 /// Fill cells as straight cuts through the plane tell.
 /// @param[in] material of each part of the partition
+/// @param[in] smallest fraction that becomes a part of its own
 inline Materials fill(const Mesh& mesh, Geometry geometry,
                       std::span<const double> x, const Partition& plane,
-                      std::span<const int> material, int num_materials)
+                      std::span<const int> material, int num_materials,
+                      double smallest = 1e-13)
 {
   Materials out(mesh.num_cells(), num_materials);
   for (std::int32_t c = 0; c < mesh.num_cells(); ++c)

@@ -25,8 +25,8 @@ struct Case
   std::vector<shapes::Body> bodies;
   eulerian::Flow flow;
   double time = 1;
-  double fastest = 1;  ///< velocity in the square
-  bool open = false;   ///< does the flow cross the outline?
+  double fastest = 1; ///< velocity in the square
+  bool open = false;  ///< does the flow cross the outline?
 };
 
 /// LeVeque's vortex, one turn of Zalesak's disc or of a whole one, a disc that
@@ -70,13 +70,13 @@ struct Result
   double error = 0;    ///< Σ |f − f at the start| V of the bodies, halved if
                        ///< there are several
   double relative = 0; ///< over their volume
-  double drift = 0;    ///< largest change of a material's volume but what passed
-                       ///< the outline
-  double beyond = 0;   ///< farthest fraction out of [0, 1]
-  double mixed = 0;    ///< mixed cells, mean over steps
-  double spread = 0;   ///< volume of the cells at the end that hold more than
-                       ///< 1e-6 of a body and of the rest, over the start's
-  int pieces = 0;      ///< bodies at half time, by cells with more than 0.05
+  double drift = 0;  ///< largest change of a material's volume but what passed
+                     ///< the outline
+  double beyond = 0; ///< farthest fraction out of [0, 1]
+  double mixed = 0;  ///< mixed cells, mean over steps
+  double spread = 0; ///< volume of the cells at the end that hold more than
+                     ///< 1e-6 of a body and of the rest, over the start's
+  int pieces = 0;    ///< bodies at half time, by cells with more than 0.05
   std::int64_t swept = 0, kept = 0; ///< slivers
   eulerian::Seconds seconds;
 };
@@ -132,6 +132,7 @@ struct Setting
   Reconstruction method = reconstruction::MomentOfFluid{};
   bool bend = true;
   double sliver = 1e-10;
+  double height = 1; ///< of the rectangle, as broad as 1
   /// Called at half time and at the end, with interfaces ready.
   std::function<void(bool end, const eulerian::Run&)> look = {};
 };
@@ -144,7 +145,8 @@ inline int steps_of(const Case& what, const Setting& how)
 
 inline Result run(const Case& what, const Setting& how)
 {
-  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal);
+  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal, 0,
+                                      0, 1, how.height);
   const Mesh mesh = data.mesh();
   const Materials start = shapes::lay(mesh, data.x, what.bodies);
   eulerian::Options options{.interfaces = {.method = how.method},
@@ -163,8 +165,8 @@ inline Result run(const Case& what, const Setting& how)
   for (int k = 0; k < out.steps and out.outcome == Outcome::ok; ++k)
   {
     out.mixed += static_cast<double>(run.materials.mixed().size()) / out.steps;
-    out.outcome
-        = run.step(what.flow, k * what.time / out.steps, what.time / out.steps);
+    out.outcome =
+        run.step(what.flow, k * what.time / out.steps, what.time / out.steps);
     out.swept += run.transport.report().slivers_swept;
     out.kept += run.transport.report().slivers_kept;
     const bool end = k + 1 == out.steps;
@@ -179,12 +181,12 @@ inline Result run(const Case& what, const Setting& how)
   double whole = 0;
   for (int k = 0; k < num; ++k)
   {
-    const double before
-        = eulerian::volume(mesh, Geometry::plane, data.x, start, k);
-    const double now
-        = eulerian::volume(mesh, Geometry::plane, data.x, run.materials, k);
-    const double passed
-        = run.ledger.volume.empty() ? 0 : net(run.ledger.volume[k]);
+    const double before =
+        eulerian::volume(mesh, Geometry::plane, data.x, start, k);
+    const double now =
+        eulerian::volume(mesh, Geometry::plane, data.x, run.materials, k);
+    const double passed =
+        run.ledger.volume.empty() ? 0 : net(run.ledger.volume[k]);
     out.drift = std::max(out.drift, std::abs(now - before - passed));
     whole += k > 0 ? before : 0;
     if (num == 2 ? k == 1 : true)
@@ -206,9 +208,15 @@ inline Result run(const Case& what, const Setting& how)
 }
 
 /// The same with fractions as means over cells, by donor cell: no interface.
-inline Result run_donor_cell(const Case& what, const Setting& how)
+///
+/// @param[in] see called with means at half time and at the end
+inline Result run_donor_cell(
+    const Case& what, const Setting& how,
+    const std::function<void(bool end, const Mesh&, std::span<const double> x,
+                             std::span<const double> f)>& see = {})
 {
-  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal);
+  const auto data = meshes::rectangle(how.squares, how.squares, how.diagonal, 0,
+                                      0, 1, how.height);
   const Mesh mesh = data.mesh();
   const Materials start = shapes::lay(mesh, data.x, what.bodies);
   const Boundary kind = what.open ? Boundary::open : Boundary::closed;
@@ -229,16 +237,17 @@ inline Result run_donor_cell(const Case& what, const Setting& how)
   {
     for (std::int32_t i = 0; i < mesh.num_nodes(); ++i)
     {
-      const Point p = eulerian::traced_back(what.flow, point(home, i),
-                                            (k + 1) * dt, dt);
+      const Point p =
+          eulerian::traced_back(what.flow, point(home, i), (k + 1) * dt, dt);
       before[2 * i] = p.x, before[2 * i + 1] = p.y;
     }
     const Field field{.values = f, .inflow = inflow};
     const double begin = static_cast<double>(std::clock());
-    out.outcome
-        = remapper.remap(home, before, {&field, 1}, {}, Host{}, ledger);
-    out.seconds.carry
-        += (static_cast<double>(std::clock()) - begin) / CLOCKS_PER_SEC;
+    out.outcome = remapper.remap(home, before, {&field, 1}, {}, Host{}, ledger);
+    out.seconds.carry +=
+        (static_cast<double>(std::clock()) - begin) / CLOCKS_PER_SEC;
+    if (see and (k + 1 == out.steps or 2 * (k + 1) == out.steps))
+      see(k + 1 == out.steps, mesh, home, f);
   }
   std::vector<double> volumes(mesh.num_cells());
   cell_volumes(mesh, Geometry::plane, home, volumes);

@@ -164,7 +164,7 @@ void fit_and_slope(ControlVolumes& cv, std::int32_t i, Values<B> u)
   const double m = s.xy / s.xx;
   const double rest = s.yy - m * s.xy;
   if (not(s.nearest * number >= nearest_part * s.square
-          and rest >= flat_part * s.yy and s.xx >= flat_part * s.yy))
+          and rest > flat_part * s.yy and s.xx >= flat_part * s.yy))
   {
     fit(cv, i);
     return slope<B>(cv, i, u);

@@ -2,8 +2,8 @@
 //
 // Centroids of materials through a Lagrangian step.
 
-#include "remap/interfaces/interfaces.h"
 #include "remap/materials/move.h"
+#include "remap/interfaces/interfaces.h"
 #include "remap/tests/meshes.h"
 #include "remap/tests/shapes.h"
 
@@ -90,8 +90,8 @@ double misplaced(const Mesh& mesh, std::span<const double> x,
             const int material = materials.parts(row)[part].material;
             Piece in, out;
             split(piece, below, in, out);
-            const double wrong
-                = moments<Geometry::plane>(material == 1 ? out : in).v;
+            const double wrong =
+                moments<Geometry::plane>(material == 1 ? out : in).v;
             most = std::max(most, wrong / whole);
           });
   }
@@ -99,7 +99,8 @@ double misplaced(const Mesh& mesh, std::span<const double> x,
 }
 } // namespace
 
-TEST_CASE("move: centroids follow an affine motion exactly", "[materials][move]")
+TEST_CASE("move: centroids follow an affine motion exactly",
+          "[materials][move]")
 {
   const auto map = GENERATE(Map{1.3, 0.4, -0.2, 0.8, {2, -1}}, // any
                             Map{0.6, 0, 0, 0.6, {}});          // compression
@@ -202,8 +203,7 @@ TEST_CASE("move: whatever the fractions and the motion, the sum rule holds and "
     {
       const double a = draw(engine), b = (1 - a) * draw(engine);
       parts.push_back(
-          {k, f0[k] / s0,
-           o + a * (point(x0, j) - o) + b * (point(x0, l) - o)});
+          {k, f0[k] / s0, o + a * (point(x0, j) - o) + b * (point(x0, l) - o)});
       fractions.push_back(f1[k] / s1);
     }
     now.add_row(c, parts);

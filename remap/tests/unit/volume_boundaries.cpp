@@ -66,9 +66,10 @@ double at(const Exchange& e, Way way)
 }
 } // namespace
 
-TEST_CASE("volumes at boundaries: open ones let a given material in, and all is "
-          "booked",
-          "[materials][transport]")
+TEST_CASE(
+    "volumes at boundaries: open ones let a given material in, and all is "
+    "booked",
+    "[materials][transport]")
 {
   // By less than a cell, by more, by more than all.
   const double way = GENERATE(0.3 * h, 2.4 * h, 0.7);
@@ -78,21 +79,19 @@ TEST_CASE("volumes at boundaries: open ones let a given material in, and all is 
                          .beyond = {0, 2, 0, 2}})
           == Outcome::ok);
   CHECK(box.volume(to, 2) == Catch::Approx(way).epsilon(1e-12));
-  CHECK(box.volume(to, 1)
-        == Catch::Approx(0.43 * (1 - way)).epsilon(1e-12));
+  CHECK(box.volume(to, 1) == Catch::Approx(0.43 * (1 - way)).epsilon(1e-12));
   const auto& book = box.ledger.volume;
   CHECK(at(book[2], Way::inflow) == Catch::Approx(way).epsilon(1e-12));
-  CHECK(at(book[1], Way::outflow)
-        == Catch::Approx(-0.43 * way).epsilon(1e-12));
-  CHECK(at(book[0], Way::outflow)
-        == Catch::Approx(-0.57 * way).epsilon(1e-12));
+  CHECK(at(book[1], Way::outflow) == Catch::Approx(-0.43 * way).epsilon(1e-12));
+  CHECK(at(book[0], Way::outflow) == Catch::Approx(-0.57 * way).epsilon(1e-12));
   for (const Exchange& e : book)
     CHECK(at(e, Way::closed) == 0);
 }
 
-TEST_CASE("volumes at boundaries: a free surface gains void, or more of what is "
-          "there",
-          "[materials][transport]")
+TEST_CASE(
+    "volumes at boundaries: a free surface gains void, or more of what is "
+    "there",
+    "[materials][transport]")
 {
   const bool void_beyond = GENERATE(true, false);
   Box box;
@@ -104,12 +103,11 @@ TEST_CASE("volumes at boundaries: a free surface gains void, or more of what is 
   std::vector<double> before(3);
   for (int k = 0; k < 3; ++k)
     before[k] = box.volume(box.data.x, k);
-  REQUIRE(box.carry(to, {.boundaries = {Boundary::closed, Boundary::closed,
-                                        Boundary::free_surface,
-                                        Boundary::closed},
-                         .beyond = void_beyond
-                                       ? std::vector<std::int32_t>{-1, -1, 2}
-                                       : std::vector<std::int32_t>{}})
+  REQUIRE(box.carry(
+              to, {.boundaries = {Boundary::closed, Boundary::closed,
+                                  Boundary::free_surface, Boundary::closed},
+                   .beyond = void_beyond ? std::vector<std::int32_t>{-1, -1, 2}
+                                         : std::vector<std::int32_t>{}})
           == Outcome::ok);
   // What is between the polygon through the nodes of the wave and the line.
   double half = 0;
@@ -144,8 +142,8 @@ TEST_CASE("volumes at boundaries: nodes that slide on a straight wall book "
   }
   const auto layer = shapes::part_in(shapes::everything<Geometry::plane>,
                                      {{{1, 0.2}, {0.43, 0}}});
-  box.materials
-      = shapes::lay(box.mesh, box.data.x, {layer, shapes::disc({9, 9}, 0.1)});
+  box.materials =
+      shapes::lay(box.mesh, box.data.x, {layer, shapes::disc({9, 9}, 0.1)});
   std::vector<double> before(3);
   for (int k = 0; k < 3; ++k)
     before[k] = box.volume(box.data.x, k);
@@ -173,19 +171,18 @@ TEST_CASE("volumes: slivers go to a neighbour against the same volume, or are "
   const auto add = [&](std::int32_t c, double fraction)
   {
     const auto [i, j, k] = mesh.cell(c);
-    const Point g = 1.0 / 3
-                    * (point(data.x, i) + point(data.x, j) + point(data.x, k));
+    const Point g =
+        1.0 / 3 * (point(data.x, i) + point(data.x, j) + point(data.x, k));
     m.add_row(c, std::vector<Part>{{0, 1 - fraction, g}, {1, fraction, g}});
   };
   const std::int32_t small = 90, large = mesh.cell_cells()[small][0];
   add(small, 3e-12);
   if (company)
     add(large, 0.3);
-  const double before
-      = eulerian::volume(mesh, Geometry::plane, data.x, m, 1);
+  const double before = eulerian::volume(mesh, Geometry::plane, data.x, m, 1);
   const double v = 0.5 * h * h;
-  const auto report
-      = sweep_slivers(mesh, m, 1e-10, [v](std::int32_t) { return v; }, {});
+  const auto report =
+      sweep_slivers(mesh, m, 1e-10, [v](std::int32_t) { return v; }, {});
   CHECK(report.swept == (company ? 1 : 0));
   CHECK(report.kept == (company ? 0 : 1));
   CHECK(m.pure(small) == (company ? 0 : -1));
@@ -194,7 +191,8 @@ TEST_CASE("volumes: slivers go to a neighbour against the same volume, or are "
         < 1e-17);
 }
 
-TEST_CASE("volumes: outcomes, with everything as it was", "[materials][transport]")
+TEST_CASE("volumes: outcomes, with everything as it was",
+          "[materials][transport]")
 {
   Box box;
   const Materials start = box.materials;

@@ -45,8 +45,8 @@ Result run(const Start& start, const ranks::Part& part, const Host& host)
   }
   // Ghosts too: every rank knows the shapes.
   eulerian::Run run(mesh, x, shapes::lay(mesh, x, bodies), options, host);
-  const auto flow = start.open ? eulerian::rotation({0.5, 0.5})
-                               : eulerian::vortex(2);
+  const auto flow =
+      start.open ? eulerian::rotation({0.5, 0.5}) : eulerian::vortex(2);
   const double speed = start.open ? std::numbers::pi * std::sqrt(2.0) : 1;
   constexpr int steps = 12;
   Result out;
@@ -92,9 +92,10 @@ std::vector<Result> run_on(const Start& start, int size, bool stripes)
 }
 } // namespace
 
-TEST_CASE("volumes on ranks: materials, centroids and ledger equal those of one "
-          "process",
-          "[materials][ranks]")
+TEST_CASE(
+    "volumes on ranks: materials, centroids and ledger equal those of one "
+    "process",
+    "[materials][ranks]")
 {
   const int size = GENERATE(2, 3);
   const bool stripes = GENERATE(true, false);
@@ -133,8 +134,9 @@ TEST_CASE("volumes on ranks: materials, centroids and ledger equal those of one 
   CHECK(swept == alone.swept);
 }
 
-TEST_CASE("volumes on ranks: a move beyond the halo is an outcome, on all ranks",
-          "[materials][ranks]")
+TEST_CASE(
+    "volumes on ranks: a move beyond the halo is an outcome, on all ranks",
+    "[materials][ranks]")
 {
   Start start;
   start.courant = 2;

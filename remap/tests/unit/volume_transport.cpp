@@ -39,10 +39,10 @@ double distance(const Materials& a, const Materials& b)
           continue;
         for (const Part& q : to.parts(to.row(c)))
           if (q.material == p.material)
-            most = std::max(most, p.fraction
-                                      * std::hypot(p.centroid.x - q.centroid.x,
-                                                   p.centroid.y
-                                                       - q.centroid.y));
+            most =
+                std::max(most, p.fraction
+                                   * std::hypot(p.centroid.x - q.centroid.x,
+                                                p.centroid.y - q.centroid.y));
       }
   };
   look(a, b);
@@ -118,8 +118,7 @@ void straight(double cells)
   const auto to = swirled(meshes::shaken(m.data.x, 0.2 * h, 2), cells);
   const HalfPlane below{{0.3, 1}, {0.4, 0.52}}, left{{1, -0.4}, {0.45, 0.8}};
   // A layer, and above it two bodies side by side: they meet in a T.
-  const auto bodies
-      = half_planes<G>({{below}, {below.flipped(), left}});
+  const auto bodies = half_planes<G>({{below}, {below.flipped(), left}});
   Materials now = shapes::lay<G>(m.mesh, from, bodies);
   VolumeTransport transport(m.mesh, {.geometry = G});
   REQUIRE(m.carry(transport, from, to, now) == Outcome::ok);
@@ -128,14 +127,21 @@ void straight(double cells)
 }
 } // namespace
 
-TEST_CASE("volumes: straight interfaces that meet in a T arrive exactly, at any "
-          "displacement",
-          "[materials][transport]")
+TEST_CASE(
+    "volumes: straight interfaces that meet in a T arrive exactly, at any "
+    "displacement",
+    "[materials][transport]")
 {
   const double cells = GENERATE(0.0, 0.5, 1.0, 3.0);
   INFO("displacement " << cells);
-  SECTION("plane") { straight<Geometry::plane>(cells); }
-  SECTION("axisymmetric") { straight<Geometry::axisymmetric>(cells); }
+  SECTION("plane")
+  {
+    straight<Geometry::plane>(cells);
+  }
+  SECTION("axisymmetric")
+  {
+    straight<Geometry::axisymmetric>(cells);
+  }
 }
 
 TEST_CASE("volumes: a strip of pure cells between pure cells arrives, however "
@@ -192,8 +198,9 @@ TEST_CASE("volumes: random materials keep their volumes, and fractions their "
       const double a = draw(engine), b = (1 - a) * draw(engine);
       const auto [i, j, l] = mesh.cell(c);
       const Point o = point(rest, i);
-      parts.push_back({k + (k > 0 ? materials - count : 0), draw(engine),
-                       o + a * (point(rest, j) - o) + b * (point(rest, l) - o)});
+      parts.push_back(
+          {k + (k > 0 ? materials - count : 0), draw(engine),
+           o + a * (point(rest, j) - o) + b * (point(rest, l) - o)});
       sum += parts.back().fraction;
     }
     for (Part& p : parts)
@@ -212,9 +219,9 @@ TEST_CASE("volumes: random materials keep their volumes, and fractions their "
     const auto& from = step % 2 == 0 ? rest : away;
     const auto& to = step % 2 == 0 ? away : rest;
     interfaces.reconstruct(from, now, {});
-    REQUIRE(transport.carry(from, to, {}, interfaces.partitions(), now, {},
-                            ledger)
-            == Outcome::ok);
+    REQUIRE(
+        transport.carry(from, to, {}, interfaces.partitions(), now, {}, ledger)
+        == Outcome::ok);
     check_bounds(now);
     CHECK(transport.report().merged_volume == 0);
     for (int k = 0; k < materials; ++k)
@@ -276,7 +283,8 @@ TEST_CASE("volumes: bent facets sweep the volumes given, so that cells and "
     const Point p = point(data.x, i);
     const double d = 1e-6;
     const double r = geometry == Geometry::plane ? 1 : p.x;
-    to[2 * i] -= (stream({p.x, p.y + d}) - stream({p.x, p.y - d})) / (2 * d * r);
+    to[2 * i] -=
+        (stream({p.x, p.y + d}) - stream({p.x, p.y - d})) / (2 * d * r);
     to[2 * i + 1] +=
         (stream({p.x + d, p.y}) - stream({p.x - d, p.y})) / (2 * d * r);
   }
