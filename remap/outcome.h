@@ -20,6 +20,8 @@ enum class Outcome
   inverted_path,   ///< a cell loses its volume between two valid places
   too_many_cycles, ///< the stated loss needs more sub-cycles than allowed
   beyond_halo,     ///< overlay: a cell meets cells that this rank does not see
+  bad_materials,   ///< fractions that do not add up, a part outside its cell;
+                   ///< nothing was changed
 };
 
 /// The outcome in words.
@@ -41,6 +43,8 @@ constexpr std::string_view describe(Outcome outcome)
     return "a cell loses its volume on the way to its new place";
   case Outcome::too_many_cycles:
     return "the move needs more sub-cycles than allowed";
+  case Outcome::bad_materials:
+    return "a cell's fractions do not add up, or a part lies outside its cell";
   case Outcome::beyond_halo:
     return "a cell moved to where this rank does not see the mesh";
   }

@@ -22,6 +22,15 @@ std::vector<std::string> Options::complaints() const
     out.push_back("point_components: points are needed");
   if (per_mass and (nodal_components < 1 or cell_components < 1))
     out.push_back("per_mass: cell_components and nodal_components are needed");
+  if (materials.number < 0 or materials.number > most_parts
+      or materials.components < 0)
+    out.push_back("materials: at most " + std::to_string(most_parts)
+                  + ", and no negative number of components");
+  if (std::any_of(materials.inflow.begin(), materials.inflow.end(),
+                  [this](int m) { return m < 0 or m >= materials.number; }))
+    out.push_back("materials: inflow names a material that is not there");
+  if (not(materials.sliver >= 0 and materials.sliver < 0.1))
+    out.push_back("materials: sliver must be in [0, 0.1)");
   if (method == Method::overlay and per_mass)
     out.push_back("per_mass: fields per mass need method swept");
   return out;
@@ -40,7 +49,13 @@ Remapper::Remapper(const Mesh& mesh, Options options)
   const Options& o = _options;
   const bool sides = looks_at_sides(o.scheme);
   const auto nodes = static_cast<std::size_t>(mesh.num_nodes());
-  _cells.reserve(mesh, sides, o.per_mass, widest_block(o.cell_components));
+  const bool mixed = o.materials.number > 0;
+  _cells.reserve(mesh, sides, o.per_mass or mixed,
+                 widest_block(std::max(o.cell_components,
+                                       mixed ? o.materials.components : 0)));
+  if (mixed)
+    _materials = std::make_unique<MaterialTransport>(
+        mesh, _cells, o.geometry, o.materials, _options.boundaries);
   if (o.point_components > 0)
   {
     const Mesh& fine = o.points->mesh();
@@ -63,6 +78,11 @@ Remapper::Remapper(const Mesh& mesh, Options options)
         mesh, o.point_components > 0 ? o.points : nullptr);
   if (o.per_mass)
   {
+    if (mixed)
+    {
+      _mixture.resize(mesh.num_cells());
+      _nodes.jump.assign(std::size_t(3) * mesh.num_cells(), 0);
+    }
     _amounts.inner.resize(_cells.inner.from.size());
     _amounts.outer.resize(_cells.outer.from.size());
   }
@@ -110,7 +130,15 @@ bool Remapper::sizes_fit(std::span<const double> x_old,
                      o.point_components)
          and all_fit(fields.nodes, _mesh->num_nodes(), o.nodal_components)
          and all_fit(fields.per_mass, _mesh->num_nodes(), o.nodal_components)
-         and (fields.per_mass.empty()
+         and (not fields.materials or (_materials and _materials->fits(fields)))
+         and (fields.materials or fields.of_materials.empty())
+         and (fields.per_mass.empty() or not mixture(fields)
+              or (o.per_mass and fields.materials
+                  and fields.material_density
+                          < static_cast<int>(fields.of_materials.size())
+                  and fields.of_materials[fields.material_density].components
+                          == 1))
+         and (fields.per_mass.empty() or mixture(fields)
               or (o.per_mass and fields.density >= 0
                   and density < fields.cells.size()
                   and fields.cells[density].components == 1));
@@ -327,6 +355,11 @@ Outcome Remapper::run(const Fields& fields, const Host& host, Ledger& ledger)
   if (out != Outcome::ok)
     return out;
   repair<G>(fields, host);
+  if (fields.materials)
+  {
+    _materials->count(host);
+    _report.materials = _materials->report();
+  }
   settle(fields, host, ledger);
   return Outcome::ok;
 }
@@ -387,8 +420,8 @@ Outcome Remapper::overlay_on(const Fields& fields, const Host& host)
     _report.worst_cell = static_cast<std::int64_t>(all[1]);
     return out;
   }
-  carry<G>(fields, host);
   _report.overlaid = true;
+  carry<G>(fields, host);
   return Outcome::ok;
 }
 
@@ -423,22 +456,33 @@ Outcome Remapper::remap(std::span<const double> x_old,
   _fine = not fields.points.empty();
   _x_old = x_old;
   _x_new = x_new;
+  const bool sound = not good or not fields.materials
+                     or _materials->sound(*fields.materials, x_old);
   if (good)
     find_touched(x_old, x_new);
-  double state[3] = {fit ? 0.0 : 1.0, good ? 0.0 : 1.0,
+  double state[4] = {fit ? 0.0 : 1.0, good ? 0.0 : 1.0, sound ? 0.0 : 1.0,
                      good and not _moved_nodes.empty() ? 1.0 : 0.0};
-  host.max(std::span(state, 3));
+  host.max(std::span(state, 4));
   if (state[0] > 0)
     return Outcome::wrong_size;
   if (state[1] > 0)
     return Outcome::not_finite;
+  if (state[2] > 0)
+    return Outcome::bad_materials;
+  if (_materials)
+    _materials->start(fields);
+  if (_masses and mixture(fields))
+    for (std::int32_t c = 0; c < _mesh->num_cells(); ++c)
+      _mixture[c] = _materials->mixture(c);
   std::size_t entries = 2;
   for (const auto& list :
        {fields.cells, fields.points, fields.nodes, fields.per_mass})
     for (const Field& field : list)
       entries += static_cast<std::size_t>(field.components);
+  if (_materials)
+    entries += _materials->entries();
   _book.assign(entries, {});
-  if (not(state[2] > 0))
+  if (not(state[3] > 0))
   {
     settle(fields, {}, ledger);
     return Outcome::ok;

@@ -9,6 +9,7 @@
 
 #include "remap/geometry/volumes.h"
 #include "remap/host.h"
+#include "remap/materials/transport.h"
 #include "remap/mesh.h"
 #include "remap/outcome.h"
 #include "remap/points.h"
@@ -58,6 +59,7 @@ struct Options
   int point_components = 0; ///< of the widest point field
   int nodal_components = 0; ///< of the widest nodal field, or field per mass
   bool per_mass = false;    ///< will there be fields per mass?
+  MaterialOptions materials = {}; ///< do cells hold materials?
 
   /// Every problem, in words; empty is good.
   [[nodiscard]] std::vector<std::string> complaints() const;
@@ -82,6 +84,7 @@ struct Report
   std::int64_t repaired = 0;
   /// Largest amount of a component that found no room in its range.
   double unrepaired = 0;
+  MaterialReport materials = {};
 };
 
 /// Remap with all the room it needs; set up once for a mesh.
@@ -133,6 +136,11 @@ private:
 
   template <Geometry G>
   Outcome run(const Fields& fields, const Host& host, Ledger& ledger);
+  /// Do materials make the density of fields per mass?
+  static bool mixture(const Fields& fields)
+  {
+    return fields.material_density >= 0;
+  }
   [[nodiscard]] bool sizes_fit(std::span<const double> x_old,
                                std::span<const double> x_new,
                                const Fields& fields) const;
@@ -177,10 +185,12 @@ private:
   CellVolumes _cells;
   NodalVolumes _nodes;
   std::unique_ptr<Points> _points;
-  bool _dual = false;   // are there nodal fields in this call?
-  bool _masses = false; // are there fields per mass?
-  bool _fine = false;   // are there fields at points?
-  Amounts _amounts;     // of the density
+  std::unique_ptr<MaterialTransport> _materials;
+  std::vector<double> _mixture; // density of cells, if materials make it
+  bool _dual = false;           // are there nodal fields in this call?
+  bool _masses = false;         // are there fields per mass?
+  bool _fine = false;           // are there fields at points?
+  Amounts _amounts;             // of the density
   std::span<const double> _x_old, _x_new;
   std::vector<double> _x, _y;             // before and after a sub-cycle
   std::vector<std::uint8_t> _moved;       // per node

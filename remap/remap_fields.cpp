@@ -38,9 +38,27 @@ void Remapper::carry_masses(const Fields& fields, std::size_t entry,
                             const Host& host)
 {
   _cells.split(_x, _y, _amounts.inner, _amounts.outer, _nodes.passing);
-  _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(),
-                       fields.cells[fields.density].values, _x, _y, host);
+  std::span<const double> rho = _mixture;
+  const auto jump = [this](bool there)
+  {
+    for (const auto& [c, corner, mass] : _materials->jumps())
+    {
+      double& at = _nodes.jump[static_cast<std::size_t>(3 * c + corner)];
+      at = there ? at + mass : 0;
+    }
+  };
+  if (mixture(fields))
+  {
+    for (std::int32_t c : _cells.touched)
+      _mixture[c] = _materials->mixture(c);
+    jump(true);
+  }
+  else
+    rho = fields.cells[fields.density].values;
+  _nodes.find_flows<G>(_cells.touched, _mesh->owned_cells(), rho, _x, _y, host);
   _nodes.exchange_masses<G>(_cells.touched, _moved, _x, _y);
+  if (mixture(fields))
+    jump(false);
   _report.mass_loss =
       std::max(_report.mass_loss, host.max(_nodes.largest_loss()));
   for (const Field& field : fields.per_mass)
@@ -77,16 +95,25 @@ void Remapper::carry(const Fields& fields, const Host& host)
   if (_dual)
     book_volume(_nodes, _book[1]);
   if (_masses)
-    _nodes.keep_density<G>(_cells.touched, fields.cells[fields.density].values,
+    _nodes.keep_density<G>(_cells.touched,
+                           mixture(fields)
+                               ? std::span<const double>(_mixture)
+                               : fields.cells[fields.density].values,
                            _x);
   const Options& o = _options;
-  std::size_t entry = carry_all(_cells, fields.cells, o.scheme, _cell_halo,
-                                host, 2, _masses ? fields.density : -1);
+  std::size_t entry =
+      carry_all(_cells, fields.cells, o.scheme, _cell_halo, host, 2,
+                _masses and not mixture(fields) ? fields.density : -1);
   if (_fine)
     entry = carry_all(_points->volumes, fields.points, o.scheme, _point_halo,
                       host, entry);
   entry =
       carry_all(_nodes, fields.nodes, o.nodal_scheme, _node_halo, host, entry);
+  if (fields.materials)
+    _materials->carry<G>(
+        _x, _y, _report.overlaid ? &_overlap->of_cells() : nullptr, o.scheme,
+        host, _masses and mixture(fields) ? &_amounts : nullptr,
+        std::span(_book).last(_materials->entries()));
   if (_masses)
     carry_masses<G>(fields, entry, host);
 }
@@ -116,6 +143,8 @@ void Remapper::repair(const Fields& fields, const Host& host)
   if (_masses and not fields.nodes.empty())
     _nodes.measure_next<G>(_x_new);
   all(fields.nodes, _nodes, _node_halo);
+  if (fields.materials)
+    _materials->repair(_x_new, _repair, host, repaired, _report.unrepaired);
   host.sum(std::span(&repaired, 1));
   _report.repaired = static_cast<std::int64_t>(repaired);
 }
@@ -145,6 +174,15 @@ void Remapper::settle(const Fields& fields, const Host& host, Ledger& ledger)
   all(fields.points, ledger.points);
   all(fields.nodes, ledger.nodes);
   all(fields.per_mass, ledger.per_mass);
+  if (not fields.materials)
+    return;
+  const auto number = static_cast<std::size_t>(_options.materials.number);
+  ledger.material_volume.resize(number);
+  for (Exchange& e : ledger.material_volume)
+    add(e, _book[entry++]);
+  ledger.of_materials.resize(_book.size() - entry);
+  for (Exchange& e : ledger.of_materials)
+    add(e, _book[entry++]);
 }
 
 template void Remapper::carry<Geometry::plane>(const Fields&, const Host&);

@@ -15,6 +15,9 @@
 #include <numbers>
 #include <numeric>
 #include <sstream>
+#ifdef MMALE_CGAL
+#include "remap/domain/cgal/clean.h"
+#endif
 
 namespace mmale::bridge
 {
@@ -111,6 +114,26 @@ Drawing read_drawing(const std::string& text, bool svg,
   for_each_point(drawing, [&](Point& p) { p = by * p + (to - low); });
   return drawing;
 }
+
+/// What rings that cross fill, where the build has the means to tell.
+#ifdef MMALE_CGAL
+bool clean(const Drawing& drawing, ::remap::Domain& domain)
+{
+  auto cleaned = ::remap::clean(drawing.shapes);
+  domain = std::move(cleaned.domain);
+  return cleaned.faults.empty();
+}
+constexpr const char* cure = "its rings cross, and rounding the places where "
+                             "they do makes them cross again";
+#else
+bool clean(const Drawing&, ::remap::Domain&)
+{
+  return false;
+}
+constexpr const char* cure =
+    "its rings cross: unite its paths in a drawing program, or build with "
+    "-DREMAP_CGAL=ON (CGAL's arrangements, under the GPL), which does it";
+#endif
 
 /// Rings that rank 0 knows, on all ranks; the same on all to the last bit.
 ::remap::Domain share_domain(MPI_Comm comm, std::string& text)
@@ -237,8 +260,15 @@ LoadedDomain load_domain(const std::string& name, const scene::Domain& given)
     return out;
   }
   const Drawing drawing = read_drawing(text, is_svg(file), given);
-  for (const auto& trouble : drawing.judge())
+  const auto troubles = drawing.judge();
+  const bool crossing =
+      std::ranges::any_of(troubles, [](const auto& t) { return t.crossing; });
+  if (crossing and clean(drawing, out.domain))
+    return out;
+  for (const auto& trouble : troubles)
     out.complaints.push_back({"", trouble.what, {file.string(), trouble.line}});
+  if (crossing)
+    out.complaints.push_back({"domain." + name + ".file", cure, {}});
   if (out.complaints.empty())
     out.domain = ::remap::Domain(drawing.shapes);
   return out;

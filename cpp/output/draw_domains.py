@@ -56,11 +56,11 @@ def draw_domain(folder, plan, what):
     inside = find(*middle.T) if len(middle) else []
 
     size = np.ptp(grid.points, axis=0)
-    breadth = min(7.0, 6.0 * size[0] / size[1])
+    breadth = min(6.0, 5.0 * size[0] / size[1])
     height = breadth * size[1] / size[0]
     figure, axes = plt.subplots(1, 2, figsize=(2 * breadth + 0.6, height + 0.7))
     path = outline(rings)
-    axes[0].add_patch(PathPatch(path, facecolor=BODY, edgecolor=INK, linewidth=0.6))
+    axes[0].add_patch(PathPatch(path, facecolor=BODY, edgecolor=INK, linewidth=0.4))
     faces = [MIXED[colour[c]] if c in colour else BODY for c in inside]
     axes[1].add_collection(
         PolyCollection(pieces.polygons, facecolors=faces, edgecolors=faces, lw=0.15)

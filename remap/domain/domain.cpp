@@ -125,7 +125,7 @@ private:
         one ? "the ring " + std::string(how) + " itself"
             : std::string(how) + " ring " + std::to_string(other.ring + 1);
     _faults.push_back({at.ring, _rings[at.ring].vertex[at.vertex],
-                       what + " near " + words(where)});
+                       what + " near " + words(where), true});
   }
 
   void look(const Edge& e, const Edge& f)

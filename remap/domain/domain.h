@@ -40,6 +40,8 @@ struct Fault
   std::size_t ring = 0;   ///< counted through all shapes, and
   std::size_t vertex = 0; ///< the vertex where it shows
   std::string what;
+  bool crossing = false; ///< rings cross or lie on each other: what they fill
+                         ///< is known all the same, see cgal/clean.h
 };
 
 class Domain

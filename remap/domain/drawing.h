@@ -19,6 +19,7 @@ struct Trouble
 {
   int line = 0; ///< from 1; 0: the file as a whole
   std::string what;
+  bool crossing = false; ///< as of a Fault
 };
 
 /// Shapes of a file.

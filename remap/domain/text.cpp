@@ -117,7 +117,8 @@ std::vector<Trouble> Drawing::judge() const
     const bool known =
         f.ring < lines.size() and f.vertex < lines[f.ring].size();
     out.push_back({known ? lines[f.ring][f.vertex] : 0,
-                   "ring " + std::to_string(f.ring + 1) + ": " + f.what});
+                   "ring " + std::to_string(f.ring + 1) + ": " + f.what,
+                   f.crossing});
   }
   return out;
 }

@@ -74,9 +74,8 @@ inline void split(const Region& p, const HalfPlane& h, Region& in, Region& out)
 template <Geometry G, int N>
 inline Moments moments(const Polygon<N>& p, Point origin)
 {
-  return p.size < 3
-             ? Moments{}
-             : polygon::fan<G>(p.x.data(), p.y.data(), p.size, origin.x);
+  return p.size < 3 ? Moments{}
+                    : polygon::fan<G>(p.x.data(), p.y.data(), p.size, origin.x);
 }
 
 /// Pieces of a polygon by parts of a partition: use(part, moments about

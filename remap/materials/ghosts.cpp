@@ -49,8 +49,8 @@ void remap::update_ghosts(const Mesh& mesh, Materials& materials,
     for (std::int32_t c = owned; c < all; ++c)
     {
       const double* at = &row[std::size_t(4) * c];
-      ghosts[c - owned][k] = {static_cast<std::int32_t>(at[0]), at[1],
-                              {at[2], at[3]}};
+      ghosts[c - owned][k] = {
+          static_cast<std::int32_t>(at[0]), at[1], {at[2], at[3]}};
     }
   }
 

@@ -12,6 +12,7 @@
 #include "remap/geometry/measure.h"
 #include "remap/interfaces/partition.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <span>
@@ -70,6 +71,21 @@ public:
   [[nodiscard]] std::int32_t first_slot(std::int32_t row) const
   {
     return num_cells() + _first[row];
+  }
+  /// Part at a slot behind the cells, and its cell.
+  [[nodiscard]] const Part& part(std::int32_t slot) const
+  {
+    return _parts[slot - num_cells()];
+  }
+  [[nodiscard]] Part& part(std::int32_t slot)
+  {
+    return _parts[slot - num_cells()];
+  }
+  [[nodiscard]] std::int32_t cell(std::int32_t slot) const
+  {
+    const auto behind =
+        std::upper_bound(_first.begin(), _first.end(), slot - num_cells());
+    return _mixed[static_cast<std::size_t>(behind - _first.begin()) - 1];
   }
   /// Number of slots: cells and parts.
   [[nodiscard]] std::int32_t num_slots() const

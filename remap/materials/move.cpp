@@ -24,8 +24,9 @@ class Affine
 {
 public:
   Affine(const Triangle& from, const Triangle& to)
-      : _from(from[0]), _to(to[0]), _u(from[1] - from[0]), _v(from[2] - from[0]),
-        _u1(to[1] - to[0]), _v1(to[2] - to[0]), _area(cross(_u, _v))
+      : _from(from[0]), _to(to[0]), _u(from[1] - from[0]),
+        _v(from[2] - from[0]), _u1(to[1] - to[0]), _v1(to[2] - to[0]),
+        _area(cross(_u, _v))
   {
   }
 
@@ -153,9 +154,8 @@ public:
     split(before, cut.plane, in, out);
     const double vi = grown(in, cut.in), vo = grown(out, cut.out);
     const double all = volume(now).v;
-    const Chord chord = place<G>(now, cut.plane.normal,
-                                 vi + vo > 0 ? all * vi / (vi + vo) : 0,
-                                 _radius);
+    const Chord chord = place<G>(
+        now, cut.plane.normal, vi + vo > 0 ? all * vi / (vi + vo) : 0, _radius);
     split(now, {cut.plane.normal, middle(chord.a, chord.b)}, in_now, out_now);
     grow(in, in_now, cut.in, moments);
     grow(out, out_now, cut.out, moments);
@@ -164,9 +164,9 @@ public:
 private:
   [[nodiscard]] Moments volume(const Piece& p) const
   {
-    return p.size < 3 ? Moments{}
-                      : polygon::fan<G>(p.x.data(), p.y.data(), p.size,
-                                        _radius);
+    return p.size < 3
+               ? Moments{}
+               : polygon::fan<G>(p.x.data(), p.y.data(), p.size, _radius);
   }
   [[nodiscard]] double grown(const Piece& p, int node) const
   {
@@ -211,8 +211,8 @@ void regrow(const Triangle& t, const Affine& map, const Partition& partition,
   {
     // What the centroid was off its polygon it stays off.
     if (before[k].v > 0 and after[k].v > 0)
-      parts[k].centroid = parts[k].centroid
-                          + (after[k].centroid() - before[k].centroid());
+      parts[k].centroid =
+          parts[k].centroid + (after[k].centroid() - before[k].centroid());
     parts[k].fraction = fractions[k];
   }
 }
@@ -232,11 +232,11 @@ MoveReport regrown(const Mesh& mesh, std::span<const double> x0,
     const auto parts = materials.parts(row);
     for (Part& p : parts)
       p.centroid = map(p.centroid);
-    regrow<G>(to, map, partitions[row],
-              fractions.subspan(materials.first_slot(row)
-                                    - materials.num_cells(),
-                                parts.size()),
-              parts);
+    regrow<G>(
+        to, map, partitions[row],
+        fractions.subspan(materials.first_slot(row) - materials.num_cells(),
+                          parts.size()),
+        parts);
     obey<G>(to, parts, report);
   }
   return report;

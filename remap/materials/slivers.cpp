@@ -41,14 +41,12 @@ double largest_common(const Materials& m, std::int32_t c, std::int32_t d,
 
 /// The exchange that rids a cell of its smallest part, with the neighbour that
 /// has most of what it needs; `with` < 0: none has.
-Swap swap_of(const Mesh& mesh, const Materials& m, std::int32_t c,
-             double least)
+Swap swap_of(const Mesh& mesh, const Materials& m, std::int32_t c, double least)
 {
   const auto parts = m.parts(m.row(c));
-  const Part& p
-      = *std::min_element(parts.begin(), parts.end(),
-                          [](const Part& a, const Part& b)
-                          { return a.fraction < b.fraction; });
+  const Part& p = *std::min_element(parts.begin(), parts.end(),
+                                    [](const Part& a, const Part& b)
+                                    { return a.fraction < b.fraction; });
   Swap out{c, -1, p.material, -1, p.fraction};
   double best = plenty * least;
   for (std::int32_t d : mesh.cell_cells()[c])

@@ -7,8 +7,8 @@
 #include "remap/materials/slivers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 using namespace remap;
@@ -16,12 +16,6 @@ using namespace remap::position;
 
 namespace
 {
-constexpr double eps = std::numeric_limits<double>::epsilon();
-/// Of an area's scale: a smaller gap is round-off of many cuts.
-constexpr double round_off = 1e-13;
-/// A larger one has to be explained.
-constexpr double gap_size = 1e-9;
-
 bool all_finite(std::span<const double> x)
 {
   double sum = 0;
@@ -30,29 +24,6 @@ bool all_finite(std::span<const double> x)
   return sum == 0;
 }
 
-template <Geometry G>
-double scale_of(const Triangle& place, double length, double other)
-{
-  return length * std::max(length, other) * weight<G>(place);
-}
-/// Part of a polygon in a triangle, with room for two polygons.
-/// @param[in] cuts half-planes of the triangle, a bit each, that cut it
-const bent::Region* clip_to(const Polygon<6>& p, const Triangle& t,
-                            unsigned cuts, bent::Region (&room)[2])
-{
-  int at = 0;
-  room[0].size = p.size;
-  std::copy_n(p.x.begin(), p.size, room[0].x.begin());
-  std::copy_n(p.y.begin(), p.size, room[0].y.begin());
-  for (int k = 0; k < 3 and room[at].size > 0; ++k)
-    if ((cuts >> k & 1u) != 0)
-    {
-      bent::clip(room[at], HalfPlane::left_of(t[k], t[(k + 1) % 3]),
-                 room[1 - at]);
-      at = 1 - at;
-    }
-  return &room[at];
-}
 } // namespace
 
 VolumeTransport::VolumeTransport(const Mesh& mesh, VolumeOptions options)
@@ -104,8 +75,8 @@ bool VolumeTransport::outline_moved(std::int32_t f) const
   const Point p0 = point(_call.x_old, a), q0 = point(_call.x_old, b);
   const Point p1 = point(_call.x_new, a), q1 = point(_call.x_new, b);
   const double square = dot(q0 - p0, q0 - p0);
-  const double off = std::abs(twice_area(p0, q0, p1))
-                     + std::abs(twice_area(p0, q0, q1));
+  const double off =
+      std::abs(twice_area(p0, q0, p1)) + std::abs(twice_area(p0, q0, q1));
   if (off > round_off * square)
     return true;
   return not _call.facet_volumes.empty()
@@ -121,9 +92,9 @@ void VolumeTransport::add_front(std::int32_t c)
   _front_of[c] = static_cast<std::int32_t>(_fronts.size());
   const Triangle t = _walk.place(_call.x_old, c, {});
   const std::int32_t row = _call.materials->row(c);
-  const auto count = row < 0 ? 1
-                             : static_cast<std::int32_t>(
-                                   _call.materials->parts(row).size());
+  const auto count =
+      row < 0 ? 1
+              : static_cast<std::int32_t>(_call.materials->parts(row).size());
   const double whole = about_first<G>(t).v;
   _fronts.push_back({c, static_cast<std::int32_t>(_given.size()), count, whole,
                      longest_edge(t)});
@@ -132,11 +103,15 @@ void VolumeTransport::add_front(std::int32_t c)
     fail(Outcome::inverted_start, c);
 }
 
+template void VolumeTransport::add_front<Geometry::plane>(std::int32_t);
+template void VolumeTransport::add_front<Geometry::axisymmetric>(std::int32_t);
+
 /// Mixed cells; pure ones beside another material; cells whose outline moved.
 template <Geometry G>
 void VolumeTransport::find_fronts()
 {
   const Materials& m = *_call.materials;
+  _outline_moved = false;
   for (std::int32_t c : m.mixed())
     add_front<G>(c);
   for (std::int32_t f = 0; f < _mesh->num_facets(); ++f)
@@ -150,7 +125,10 @@ void VolumeTransport::find_fronts()
   }
   for (std::int32_t f : _walk.outline())
     if (outline_moved<G>(f))
+    {
+      _outline_moved = true;
       add_front<G>(_mesh->facet_cells(f)[0]);
+    }
   if (_call.host->cell_halo)
   {
     _flags.assign(_mesh->num_cells(), 0);
@@ -169,258 +147,6 @@ void VolumeTransport::find_fronts()
   }
 }
 
-/// Do all cells that were met hold one material, far from interfaces?
-bool VolumeTransport::alone(std::int32_t& material) const
-{
-  const auto met = _walk.met();
-  if (met.empty())
-    return false;
-  material = _call.materials->pure(met[0].cell);
-  for (const auto& [c, cuts] : met)
-    if (_front_of[c] >= 0 or _call.materials->pure(c) != material)
-      return false;
-  return std::all_of(_walk.edges().begin(), _walk.edges().end(),
-                     [this](std::int32_t f) { return _walk.is_outline(f); });
-}
-
-void VolumeTransport::share(std::int32_t material, const Moments& m)
-{
-  for (std::size_t i = _first; i < _shares.size(); ++i)
-    if (_shares[i].material == material)
-    {
-      _shares[i].moments += m;
-      return;
-    }
-  _shares.push_back({material, m});
-}
-
-/// Overlaps of a new cell with the old ones that it met, by material.
-/// @param[in] count_only for a cell of another rank: only what our fronts give
-template <Geometry G>
-void VolumeTransport::gather(const bent::Cell& target, bool count_only)
-{
-  const Materials& m = *_call.materials;
-  for (const auto& [c, cuts] : _walk.met())
-  {
-    const std::int32_t s = _front_of[c];
-    if (count_only and (s < 0 or c >= _mesh->owned_cells()))
-      continue;
-    const Triangle t = _walk.place(_call.x_old, c, target.origin);
-    bent::Region room[2];
-    const bent::Region* piece = clip_to(target.outline, t, cuts, room);
-    if (piece->size < 3)
-      continue;
-    ++_report.pieces;
-    _other = std::max(_other, longest_edge(t));
-    const auto use = [&](int part, const Moments& got)
-    {
-      if (not(got.v > 0))
-        return;
-      if (s >= 0)
-      {
-        _given[_fronts[s].first + part] += got.v;
-        _fronts[s].length = std::max(_fronts[s].length, target.length);
-        _taken.emplace_back(_fronts[s].first + part, got.v);
-      }
-      if (not count_only)
-        share(m.row(c) < 0 ? m.pure(c) : m.parts(m.row(c))[part].material,
-              got);
-    };
-    if (m.row(c) < 0)
-      use(0, bent::moments<G>(*piece, target.origin));
-    else
-    {
-      const Partition& by = _call.partitions[m.row(c)];
-      bent::split_by<G>(*piece, by, by.count > 0 ? 0 : ~0, target.origin, use);
-    }
-  }
-}
-
-/// The longest part of an outline inside a place, by its facet, or -1.
-/// @param[out] halo does what this rank sees of the mesh end there?
-std::int32_t VolumeTransport::edge_inside(const CellWalk& walk,
-                                          std::span<const double> x,
-                                          Point origin, const Triangle& place,
-                                          bool& halo) const
-{
-  double longest = 0;
-  std::int32_t facet = -1;
-  halo = false;
-  for (std::int32_t f : walk.edges())
-  {
-    const auto [a, b] = _mesh->facet(f);
-    const double length
-        = length_inside(point(x, a) - origin, point(x, b) - origin, place);
-    if (length > 0 and not walk.is_outline(f))
-      halo = true;
-    else if (length > longest)
-    {
-      longest = length;
-      facet = f;
-    }
-  }
-  return facet;
-}
-
-/// Facet of the outline that a new cell reaches over; -1 if it does not, or the
-/// call has failed. Looks again for cells that no walk finds.
-template <Geometry G>
-std::int32_t VolumeTransport::facet_beyond(std::int32_t d,
-                                           const bent::Cell& target,
-                                           double scale)
-{
-  bool halo = false;
-  std::int32_t facet
-      = edge_inside(_walk, _call.x_old, target.origin, target.nodes, halo);
-  if (facet >= 0 or halo)
-  {
-    if (halo)
-      fail(Outcome::beyond_halo, d);
-    return halo ? -1 : facet;
-  }
-  double found = 0;
-  for (std::size_t i = _first; i < _shares.size(); ++i)
-    found += _shares[i].moments.v;
-  if (not(target.whole.v - found > gap_size * scale))
-    return -1;
-  for (const auto& [at, volume] : _taken)
-    _given[at] -= volume;
-  _taken.clear();
-  _shares.resize(_first);
-  _walk.meet_everywhere(_call.x_old, target.outline, target.nodes,
-                        target.origin);
-  gather<G>(target, false);
-  facet = edge_inside(_walk, _call.x_old, target.origin, target.nodes, halo);
-  if (facet < 0 and _mesh->num_cells() > _mesh->owned_cells())
-    halo = true;
-  if (halo)
-  {
-    fail(Outcome::beyond_halo, d);
-    return -1;
-  }
-  return facet >= 0 ? facet
-                    : _walk.nearest_outline(
-                          _call.x_old,
-                          target.origin
-                              + 1.0 / 3
-                                    * (target.nodes[0] + target.nodes[1]
-                                       + target.nodes[2]));
-}
-
-/// What lies outside the old mesh is of the material beyond, or as what the
-/// cell found inside.
-void VolumeTransport::gain(std::int32_t d, const bent::Cell& target,
-                           std::int32_t facet)
-{
-  Moments found;
-  for (std::size_t i = _first; i < _shares.size(); ++i)
-    found += _shares[i].moments;
-  const Moments gap = target.whole - found;
-  if (not(gap.v > 0))
-    return;
-  const std::int32_t marker = _mesh->marker(facet);
-  const Boundary kind = kind_of(_options.boundaries, marker);
-  const bool given = kind != Boundary::closed and marker >= 0
-                     and marker < std::ssize(_options.beyond)
-                     and _options.beyond[marker] >= 0;
-  if (given or _shares.size() == _first)
-  {
-    const Materials& m = *_call.materials;
-    const std::int32_t own
-        = m.row(d) < 0 ? m.pure(d) : m.parts(m.row(d))[0].material;
-    const std::int32_t material = given ? _options.beyond[marker] : own;
-    share(material, gap);
-    book(material, facet, true, gap.v);
-    return;
-  }
-  for (std::size_t i = _first; i < _shares.size(); ++i)
-    book(_shares[i].material, facet, true,
-         gap.v * _shares[i].moments.v / found.v);
-}
-
-void VolumeTransport::book(std::int32_t material, std::int32_t facet,
-                           bool inwards, double volume)
-{
-  const Boundary kind = kind_of(_options.boundaries, _mesh->marker(facet));
-  const auto at = static_cast<std::size_t>(way(kind, inwards));
-  _passed[material][at] += inwards ? volume : -volume;
-}
-
-/// Shares of a new cell, all found, add up to it.
-void VolumeTransport::settle(std::int32_t d, const bent::Cell& target)
-{
-  const auto begin = _shares.begin() + static_cast<std::ptrdiff_t>(_first);
-  const auto volume = [](const Share& s) { return s.moments.v; };
-  const auto larger = [&](const Share& a, const Share& b)
-  { return volume(a) > volume(b); };
-  // Dust of round-off is none.
-  std::sort(begin, _shares.end(), larger);
-  while (_shares.size() > _first + 1
-         and volume(_shares.back()) < 4 * eps * target.whole.v)
-    _shares.pop_back();
-  while (_shares.size() > _first + most_parts)
-  {
-    _report.merged_volume += volume(_shares.back());
-    _shares[_first].moments += _shares.back().moments;
-    _shares.pop_back();
-  }
-  std::sort(begin, _shares.end(), [](const Share& a, const Share& b)
-            { return a.material < b.material; });
-  _results.push_back({d, static_cast<std::int32_t>(_first),
-                      static_cast<std::int32_t>(_shares.size() - _first),
-                      target.origin, target.length});
-}
-
-template <Geometry G>
-void VolumeTransport::close(std::int32_t d, const bent::Cell& target)
-{
-  double found = 0;
-  for (std::size_t i = _first; i < _shares.size(); ++i)
-    found += _shares[i].moments.v;
-  const Triangle place = _walk.place(_call.x_new, d, {});
-  const double scale = scale_of<G>(place, target.length, _other);
-  if (target.whole.v - found > round_off * scale)
-  {
-    const std::int32_t facet = facet_beyond<G>(d, target, scale);
-    if (facet >= 0)
-      gain(d, target, facet);
-    if (_outcome == Outcome::ok and _shares.size() == _first)
-      fail(Outcome::inverted_start, d);
-  }
-  else if (not(target.whole.v - found > -gap_size * scale))
-    fail(Outcome::inverted_start, d);
-  if (_outcome == Outcome::ok)
-    settle(d, target);
-}
-
-template <Geometry G>
-void VolumeTransport::carry_cell(std::int32_t d)
-{
-  const bent::Cell target = bent::cell<G>(*_mesh, _call.x_old, _call.x_new,
-                                          _call.facet_volumes, d);
-  const bool ours = d < _mesh->owned_cells();
-  if (not target.good)
-    return ours ? fail(Outcome::inverted_target, d) : void();
-  _walk.meet(_call.x_old, target.outline, target.nodes, target.origin, d);
-  _first = _shares.size();
-  _other = 0;
-  _taken.clear();
-  if (not ours)
-    return gather<G>(target, true);
-  ++_report.zone;
-  if (std::int32_t material = -1; alone(material))
-  {
-    _status[d] = pure;
-    _pure_of[d] = material;
-    _results.push_back({d, material, 0, {}, 0});
-    return;
-  }
-  ++_report.clipped;
-  _status[d] = mixed;
-  gather<G>(target, false);
-  close<G>(d, target);
-}
-
 template <Geometry G>
 void VolumeTransport::work_off()
 {
@@ -437,7 +163,9 @@ void VolumeTransport::exchange_status()
     return;
   _flags.assign(_mesh->num_cells(), 0);
   for (std::int32_t c : _listed)
-    _flags[c] = _status[c] == mixed ? 1 : _status[c] == pure ? 2 + _pure_of[c] : 0;
+    _flags[c] = _status[c] == mixed  ? 1
+                : _status[c] == pure ? 2 + _pure_of[c]
+                                     : 0;
   _call.host->update_cells(_flags, 1);
   for (std::int32_t c = _mesh->owned_cells(); c < _mesh->num_cells(); ++c)
   {
@@ -456,7 +184,8 @@ void VolumeTransport::exchange_status()
 bool VolumeTransport::spread_zone()
 {
   const Materials& m = *_call.materials;
-  for (; _spread < _listed.size(); ++_spread)
+  // Those listed on the way are not carried yet.
+  for (const std::size_t end = _listed.size(); _spread < end; ++_spread)
   {
     const std::int32_t d = _listed[_spread];
     if (_status[d] < mixed)
@@ -471,11 +200,16 @@ bool VolumeTransport::spread_zone()
           put(e);
         continue;
       }
+      if (_outline_moved)
+      {
+        put(e);
+        continue;
+      }
       if (_status[e] == looked)
         continue;
       const Triangle t = _walk.place(_call.x_new, e, {});
-      const std::int32_t at
-          = _walk.locate(_call.x_old, e, 1.0 / 3 * (t[0] + t[1] + t[2]));
+      const std::int32_t at =
+          _walk.locate(_call.x_old, e, 1.0 / 3 * (t[0] + t[1] + t[2]));
       if (_front_of[at] >= 0 or m.pure(at) != m.pure(e))
         put(e);
       else
@@ -486,14 +220,6 @@ bool VolumeTransport::spread_zone()
     }
   }
   return not _queue.empty();
-}
-
-double VolumeTransport::missing(const Front& front) const
-{
-  double found = 0;
-  for (std::int32_t p = 0; p < front.count; ++p)
-    found += _given[front.first + p];
-  return front.whole - found;
 }
 
 /// Old cells that are not all found: new cells that meet them and were not
@@ -537,51 +263,6 @@ bool VolumeTransport::search_missing()
   return not _queue.empty();
 }
 
-/// What of the old cells is still not found has left the body.
-void VolumeTransport::book_lost()
-{
-  const Materials& m = *_call.materials;
-  for (const Front& f : _fronts)
-  {
-    if (f.cell >= _mesh->owned_cells())
-      continue;
-    const double lost = missing(f), scale = f.length * f.length;
-    const bool axisymmetric = _options.geometry == Geometry::axisymmetric;
-    const Triangle t = _walk.place(_call.x_old, f.cell, {});
-    const double heavy
-        = scale * (axisymmetric ? weight<Geometry::axisymmetric>(t) : 1);
-    if (not(lost > -gap_size * heavy))
-      fail(Outcome::inverted_target, f.cell);
-    if (not(lost > round_off * heavy))
-      continue;
-    Polygon<6> p;
-    Triangle place;
-    for (int i = 0; i < 3; ++i)
-    {
-      place[i] = t[i] - t[0];
-      p.push(place[i]);
-    }
-    _back.meet(_call.x_new, p, place, t[0], f.cell);
-    bool halo = false;
-    std::int32_t facet = edge_inside(_back, _call.x_new, t[0], place, halo);
-    const bool ghosts = _mesh->num_cells() > _mesh->owned_cells();
-    if (halo or (facet < 0 and ghosts and lost > gap_size * heavy))
-    {
-      fail(Outcome::beyond_halo, f.cell);
-      continue;
-    }
-    if (facet < 0)
-      facet = _back.nearest_outline(_call.x_new, t[0]);
-    const std::int32_t row = m.row(f.cell);
-    for (std::int32_t k = 0; k < f.count; ++k)
-    {
-      const double had = row < 0 ? 1 : m.parts(row)[k].fraction;
-      book(row < 0 ? m.pure(f.cell) : m.parts(row)[k].material, facet, false,
-           had * f.whole - _given[f.first + k]);
-    }
-  }
-}
-
 void VolumeTransport::write(Materials& materials)
 {
   materials.drop_rows();
@@ -612,7 +293,8 @@ template <Geometry G>
 Outcome VolumeTransport::run(Materials& materials, MaterialLedger& ledger)
 {
   const Host& host = *_call.host;
-  const auto any = [&host](bool here) { return host.max(here ? 1.0 : 0.0) > 0; };
+  const auto any = [&host](bool here)
+  { return host.max(here ? 1.0 : 0.0) > 0; };
   find_fronts<G>();
   bool more = true;
   while (more)
@@ -625,8 +307,8 @@ Outcome VolumeTransport::run(Materials& materials, MaterialLedger& ledger)
     if (not more)
       more = any(search_missing());
   }
-  if (_outcome == Outcome::ok)
-    book_lost();
+  if (not(host.max(static_cast<double>(_outcome)) > 0))
+    book_all_lost<G>();
   _outcome = static_cast<Outcome>(host.max(static_cast<double>(_outcome)));
   if (_outcome != Outcome::ok)
   {
@@ -641,8 +323,8 @@ Outcome VolumeTransport::run(Materials& materials, MaterialLedger& ledger)
         .whole.v;
   };
   update_ghosts(*_mesh, materials, host);
-  const SliverReport swept
-      = sweep_slivers(*_mesh, materials, _options.sliver, volume, host);
+  const SliverReport swept =
+      sweep_slivers(*_mesh, materials, _options.sliver, volume, host);
   _report.slivers_swept = swept.swept;
   _report.slivers_kept = swept.kept;
   _report.sliver_volume = swept.volume;
@@ -668,16 +350,16 @@ Outcome VolumeTransport::carry(std::span<const double> x_old,
   _outcome = Outcome::ok;
   _call = {x_old, x_new, facet_volumes, partitions, &materials, &host};
   const auto n = std::size_t(2) * _mesh->num_nodes();
-  const bool sizes
-      = x_old.size() == n and x_new.size() == n
-        and (facet_volumes.empty()
-             or facet_volumes.size() == std::size_t(_mesh->num_facets()))
-        and partitions.size() >= materials.mixed().size()
-        and materials.num_cells() == _mesh->num_cells();
+  const bool sizes =
+      x_old.size() == n and x_new.size() == n
+      and (facet_volumes.empty()
+           or facet_volumes.size() == std::size_t(_mesh->num_facets()))
+      and partitions.size() >= materials.mixed().size()
+      and materials.num_cells() == _mesh->num_cells();
   if (host.max(sizes ? 0.0 : 1.0) > 0)
     return Outcome::wrong_size;
-  const bool finite = all_finite(x_old) and all_finite(x_new)
-                      and all_finite(facet_volumes);
+  const bool finite =
+      all_finite(x_old) and all_finite(x_new) and all_finite(facet_volumes);
   if (host.max(finite ? 0.0 : 1.0) > 0)
     return Outcome::not_finite;
   _passed.assign(materials.num_materials(), {});

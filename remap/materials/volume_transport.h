@@ -52,7 +52,7 @@ struct VolumeReport
   double sliver_volume = 0;      ///< that was swept up
   double merged_volume = 0; ///< of more materials than a cell can hold, given
                             ///< to the largest of the others
-  std::int64_t worst_cell = -1;  ///< global number, where a call failed
+  std::int64_t worst_cell = -1; ///< global number, where a call failed
 };
 
 /// Book of what passed the boundary, by material; volume now = volume before +
@@ -94,6 +94,11 @@ public:
   [[nodiscard]] const VolumeReport& report() const { return _report; }
 
 private:
+  /// Of an area's scale: a smaller gap is round-off of many cuts.
+  static constexpr double round_off = 1e-13;
+  /// A larger one has to be explained.
+  static constexpr double gap_size = 1e-9;
+
   /// What is known of a new cell.
   enum Status : std::uint8_t
   {
@@ -149,15 +154,15 @@ private:
   template <Geometry G>
   void carry_cell(std::int32_t d);
   [[nodiscard]] bool alone(std::int32_t& material) const;
+  [[nodiscard]] std::int32_t material_of_rest() const;
   template <Geometry G>
   void gather(const bent::Cell& target, bool count_only);
   void share(std::int32_t material, const Moments& m);
   template <Geometry G>
   void close(std::int32_t d, const bent::Cell& target);
   template <Geometry G>
-  [[nodiscard]] std::int32_t facet_beyond(std::int32_t d,
-                                          const bent::Cell& target,
-                                          double scale);
+  [[nodiscard]] std::int32_t
+  facet_beyond(std::int32_t d, const bent::Cell& target, double scale);
   void gain(std::int32_t d, const bent::Cell& target, std::int32_t facet);
   void settle(std::int32_t d, const bent::Cell& target);
   [[nodiscard]] std::int32_t edge_inside(const CellWalk& walk,
@@ -167,7 +172,12 @@ private:
   bool spread_zone();
   bool search_missing();
   [[nodiscard]] double missing(const Front& front) const;
-  void book_lost();
+  template <Geometry G>
+  [[nodiscard]] double kept(std::int32_t c);
+  template <Geometry G>
+  bool book_lost(const Front& f);
+  template <Geometry G>
+  void book_all_lost();
   void book(std::int32_t material, std::int32_t facet, bool inwards,
             double volume);
   void write(Materials& materials);
@@ -185,7 +195,8 @@ private:
   std::vector<Front> _fronts;
   std::vector<double> _given; ///< by fronts' parts
   std::vector<std::int32_t> _queue, _listed;
-  std::size_t _spread = 0; ///< of the listed cells, those spread from
+  bool _outline_moved = false; ///< by more than sliding
+  std::size_t _spread = 0;     ///< of the listed cells, those spread from
   std::vector<Result> _results;
   std::vector<Share> _shares;
   std::size_t _first = 0; ///< share of the cell at work

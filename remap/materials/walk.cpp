@@ -30,8 +30,7 @@ Position position_of(const Reach& reach, const Triangle& t)
     double least = 0, most = 0;
     for (int i = 0; i < p.size; ++i)
     {
-      const double depth =
-          along.x * (p.y[i] - a.y) - along.y * (p.x[i] - a.x);
+      const double depth = along.x * (p.y[i] - a.y) - along.y * (p.x[i] - a.x);
       least = std::min(least, depth);
       most = std::max(most, depth);
     }
@@ -168,8 +167,7 @@ void CellWalk::meet_everywhere(std::span<const double> x, const Polygon<6>& p,
   }
 }
 
-std::int32_t CellWalk::nearest_outline(std::span<const double> x,
-                                       Point p) const
+std::int32_t CellWalk::nearest_outline(std::span<const double> x, Point p) const
 {
   double best = std::numeric_limits<double>::infinity();
   std::int32_t nearest = -1;

@@ -57,6 +57,23 @@ inline std::vector<int> node_owners(const meshes::Data& data,
   return out;
 }
 
+/// Cells to ranks: in stripes, in blocks, or one by one at random.
+inline std::vector<int> deal(const meshes::Data& data, int size, int how)
+{
+  std::vector<int> out;
+  std::mt19937 engine(99);
+  for (std::size_t c = 0; c < data.cells.size() / 3; ++c)
+  {
+    const double x = data.x[2 * data.cells[3 * c]];
+    const double y = data.x[2 * data.cells[3 * c] + 1];
+    const double at = how == 0   ? x
+                      : how == 1 ? std::fmod(3 * x + 2 * y, 1.0)
+                                 : std::generate_canonical<double, 32>(engine);
+    out.push_back(std::min(size - 1, static_cast<int>(at * size)));
+  }
+  return out;
+}
+
 inline Part cut(const meshes::Data& all, std::span<const int> owner, int rank)
 {
   Part out;

@@ -34,8 +34,7 @@ inline Moments in_disc(const Outline& polygon, Point centre, double r)
   {
     const double turn = std::atan2(remap::cross(a, b), remap::dot(a, b));
     const double from = std::atan2(a.y, a.x), to = from + turn;
-    sum += {r * r / 2 * turn,
-            r * r * r / 3 * (std::sin(to) - std::sin(from)),
+    sum += {r * r / 2 * turn, r * r * r / 3 * (std::sin(to) - std::sin(from)),
             r * r * r / 3 * (std::cos(from) - std::cos(to))};
   };
   for (int i = 0; i < polygon.size; ++i)
@@ -118,14 +117,23 @@ inline std::vector<Body> quarters(Point centre, double r)
   std::vector<Body> out;
   for (const double sx : {1.0, -1.0})
     for (const double sy : {1.0, -1.0})
-      out.push_back(part_in(disc(centre, r),
-                            {{{sx, 0}, centre}, {{0, sy}, centre}}));
+      out.push_back(
+          part_in(disc(centre, r), {{{sx, 0}, centre}, {{0, sy}, centre}}));
   return out;
 }
 
+/// All there is; with `part_in`, half-planes and what they have in common.
+template <remap::Geometry G>
+Moments everything(const Outline& cell, Point about)
+{
+  return remap::polygon::shifted(remap::moments<G>(cell), {-about.x, -about.y});
+}
+
 /// Materials 1, 2, … are bodies that do not overlap, 0 is what is left.
-inline remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
-                            const std::vector<Body>& bodies)
+/// @param[in] least smaller fractions are none
+template <remap::Geometry G = remap::Geometry::plane>
+remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
+                     const std::vector<Body>& bodies, double least = 1e-11)
 {
   const int num = static_cast<int>(bodies.size()) + 1;
   remap::Materials out(mesh.num_cells(), num);
@@ -135,13 +143,13 @@ inline remap::Materials lay(const remap::Mesh& mesh, std::span<const double> x,
     for (std::int32_t i : mesh.cell(c))
       cell.push(remap::point(x, i));
     const Point about = cell[0];
-    const Moments whole = remap::polygon::shifted(
-        remap::moments<remap::Geometry::plane>(cell), {-about.x, -about.y});
+    const Moments whole = everything<G>(cell, about);
     Moments rest = whole;
     std::vector<remap::Part> parts;
     const auto add = [&](int material, const Moments& m)
     {
-      if (m.v > 1e-11 * whole.v)
+      // Less is round-off of differences of sectors.
+      if (m.v > least * whole.v)
         parts.push_back({material, m.v / whole.v, about + m.centroid()});
     };
     std::vector<remap::Part> others;

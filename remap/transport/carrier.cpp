@@ -42,7 +42,7 @@ kernel::Block<B> block_of(const Field& field, const Travel& travel,
           .inflow = at(field.inflow),
           .weights = weights,
           .kinds = travel.boundaries,
-          .book = book.subspan(first, B)};
+          .book = book.subspan(first)};
 }
 
 /// What each piece takes of a field whose gradients are ready.
@@ -87,7 +87,7 @@ double kinetic_part(const kernel::Convex<N, balls>& convex, const Host& host)
   };
   double room = 0, a = 0, b = 0;
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
     {
       room += cv.volume[i] * half_square(convex.block.u[i])
               - cv.next[i] * half_square(convex.low(i));
@@ -104,7 +104,7 @@ double kinetic_part(const kernel::Convex<N, balls>& convex, const Host& host)
   {
     const std::int32_t from = cv.outer.from[p], to = cv.outer.to[p];
     const std::int32_t own = from >= 0 ? from : to;
-    if (own >= cv.owned)
+    if (not cv.ours(own))
       continue;
     const bool given =
         from < 0
@@ -205,6 +205,7 @@ double remap::carry_field(ControlVolumes& cv, const Field& field,
   const double part = std::visit(
       [&]<class S>(const S&) { return carry_with<S>(cv, field, travel, book); },
       travel.scheme);
-  travel.halo(field.values, field.components);
+  if (travel.fill_ghosts)
+    travel.halo(field.values, field.components);
   return part;
 }

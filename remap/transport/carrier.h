@@ -40,6 +40,8 @@ struct Travel
   /// Volumes are masses and values velocities: a vector that is limited as one
   /// must not gain kinetic energy.
   bool kinetic = false;
+  /// Do ghosts get their new values?
+  bool fill_ghosts = true;
 };
 
 /// Carry one field; ghosts are filled at the end.

@@ -16,6 +16,26 @@
 
 namespace remap
 {
+/// Rows of a list of lists where they stand now: those of an Adjacency, or of a
+/// copy of it whose rows may stand anywhere (stride 2: begin and end of each).
+struct Rows
+{
+  const std::int32_t* bounds = nullptr;
+  int stride = 1;
+  const std::int32_t* entries = nullptr;
+
+  Rows() = default;
+  Rows(const Adjacency& all)
+      : bounds(all.offsets.data()), entries(all.entries.data())
+  {
+  }
+  [[nodiscard]] std::span<const std::int32_t> operator[](std::int32_t i) const
+  {
+    const std::int32_t* row = bounds + std::ptrdiff_t(stride) * i;
+    return {entries + row[0], entries + row[1]};
+  }
+};
+
 /// Regions that leave one volume and enter another; arrays of equal length,
 /// because most fields need only some of them.
 struct Pieces
@@ -48,10 +68,30 @@ double sliver(Point e, double r)
 /// Geometry and room for a set of volumes.
 struct ControlVolumes
 {
-  std::int32_t num = 0;                  ///< with ghosts
-  std::int32_t owned = 0;                ///< ours, first
-  const Adjacency* neighbours = nullptr; ///< stencil of gradients and bounds
-  const Adjacency* beside = nullptr;     ///< neighbours across a facet
+  std::int32_t num = 0;   ///< with ghosts
+  std::int32_t owned = 0; ///< ours, first
+  Rows neighbours;        ///< stencil of gradients and bounds
+  Rows beside;            ///< neighbours across a facet
+
+  /// Volumes behind the cells, if they are parts of them (materials/slots.h):
+  /// the cell and the kind of each; a kind of volumes has its own book.
+  std::int32_t first_part = 0;
+  std::int32_t first_new = 0; ///< those that hold nothing yet stand last
+  std::vector<std::int32_t> cell_of_part;
+  std::vector<std::int32_t> kinds;
+  int width = 1; ///< components of the widest field
+
+  /// Is a volume ours, not a ghost?
+  [[nodiscard]] bool ours(std::int32_t i) const
+  {
+    return i < owned
+           or (i >= first_part and cell_of_part[i - first_part] < owned);
+  }
+  /// Kind of a volume: 0, if there is but one.
+  [[nodiscard]] std::size_t kind(std::int32_t i) const
+  {
+    return kinds.empty() ? 0 : static_cast<std::size_t>(kinds[i]);
+  }
 
   std::vector<double> volume;  ///< now
   std::vector<double> next;    ///< after the sub-cycle
@@ -99,10 +139,11 @@ struct ControlVolumes
                std::int32_t num_owned, std::size_t num_inner,
                std::size_t num_outer, int components)
   {
-    neighbours = &stencil;
-    beside = &sides;
-    num = stencil.size();
+    neighbours = stencil;
+    beside = sides;
+    num = first_part = first_new = stencil.size();
     owned = num_owned;
+    width = components;
     volume.assign(num, 0);
     next.assign(num, 0);
     centroid.assign(num, {});
@@ -123,6 +164,27 @@ struct ControlVolumes
     lo.assign(size, 0);
     hi.assign(size, 0);
     factor.assign(size, 0);
+  }
+
+  /// So many volumes from now on, with parts behind the cells; more room is
+  /// made when there are more than ever before.
+  void hold(std::int32_t number)
+  {
+    num = number;
+    const auto room = [](auto& all, std::size_t size)
+    {
+      if (all.size() < size)
+        all.resize(size);
+    };
+    const auto n = static_cast<std::size_t>(num);
+    for (auto* all : {&volume, &next, &leaving})
+      room(*all, n);
+    for (auto* all : {&centroid, &remains})
+      room(*all, n);
+    room(fit, 4 * n);
+    room(gradient, 2 * n * static_cast<std::size_t>(width));
+    for (auto* all : {&content, &lo, &hi, &factor})
+      room(*all, n * static_cast<std::size_t>(width));
   }
 
   /// Note a volume as changing.
@@ -157,7 +219,7 @@ struct ControlVolumes
   {
     const auto around = [this](std::int32_t i)
     {
-      for (std::int32_t j : (*neighbours)[i])
+      for (std::int32_t j : neighbours[i])
         if (mark[j] == 0)
         {
           mark[j] = 2;
@@ -319,7 +381,7 @@ struct ControlVolumes
   {
     double loss = 0;
     for (std::int32_t i : touched)
-      if (i < owned)
+      if (ours(i))
         loss = std::max(loss, leaving[i] / volume[i]);
     return loss;
   }

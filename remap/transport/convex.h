@@ -84,7 +84,7 @@ struct Convex
     return [this, i](const auto& call)
     {
       call(block.u[i]);
-      for (std::int32_t j : (*cv.neighbours)[i])
+      for (std::int32_t j : cv.neighbours[i])
         call(block.u[j]);
     };
   }
@@ -124,8 +124,16 @@ struct Convex
     {
       for (int k = 0; k < N; ++k)
         low(i)[k] = cv.content[std::size_t(N) * i + k] / cv.next[i];
-      factor(i) = 1;
+      // What held nothing has no set of its own: it gets the donors' means.
+      factor(i) = i < cv.first_new ? 1 : 0;
     }
+  }
+
+  /// Digits that a result does not have: few more than numbers do not, but
+  /// where little is left of a volume.
+  [[nodiscard]] double round_off(std::int32_t i) const
+  {
+    return 1e-13 * std::max(1.0, 0.01 * cv.volume[i] / cv.next[i]);
   }
 
   /// Part of a way from the donor cell's result that stays in the set.
@@ -134,7 +142,8 @@ struct Convex
     hull::Vector<N> from;
     std::copy_n(low(i), N, from.begin());
     if constexpr (not balls)
-      return hull::reach<N>(around(i), from, way, 1e-13 * size_around(i));
+      return hull::reach<N>(around(i), from, way,
+                            round_off(i) * size_around(i));
     const auto norm2 = [this](const hull::Vector<N>& v)
     {
       double sum = 0;
@@ -202,7 +211,9 @@ struct Convex
     bool any = false;
     for (std::int32_t i : cv.touched)
     {
-      if (i >= cv.owned or not(factor(i) > 0))
+      // A volume that nothing is left of has no say.
+      if (not cv.ours(i) or not(factor(i) > 0)
+          or not(cv.next[i] > 1e-12 * cv.volume[i]))
         continue;
       hull::Vector<N> way;
       std::copy_n(change(i), N, way.begin());
@@ -219,10 +230,8 @@ struct Convex
   }
 
   /// Add to the donor cell's contents what the factors let through.
-  /// @return what of that leaves over the boundary, by component
-  [[nodiscard]] std::array<Exchange, N> add_limited() const
+  void add_limited() const
   {
-    std::array<Exchange, N> passed{};
     const auto add =
         [this](std::int32_t i, double v, const hull::Vector<N>& value)
     {
@@ -231,19 +240,31 @@ struct Convex
     };
     each_piece(
         [&](std::int32_t from, std::int32_t to, const auto& value, double all,
-            std::int32_t marker)
+            std::int32_t)
         {
           const double v =
               all * std::min(factor(from), to >= 0 ? factor(to) : 1.0);
           add(from, -v, value);
           if (to >= 0)
-            return add(to, v, value);
-          const auto lost =
-              std::size_t(way(kind_of(block.kinds, marker), false));
-          for (int k = 0; from < cv.owned and k < N; ++k)
-            passed[k][lost] -= v * value[k];
+            add(to, v, value);
         });
-    return passed;
+  }
+
+  /// Book a part of what `add_limited` let leave over the boundary.
+  void book_limited(double part) const
+  {
+    for (std::size_t p = 0; p < cv.outer.count; ++p)
+    {
+      const std::int32_t from = cv.outer.from[p];
+      if (from < 0 or not cv.ours(from))
+        continue;
+      const auto lost =
+          std::size_t(way(kind_of(block.kinds, cv.marker[p]), false));
+      const double v = part * factor(from) * cv.outer.volume[p];
+      const auto value = beyond(cv.outer, p);
+      for (int k = 0; k < N; ++k)
+        block.entry(cv, from, k)[lost] -= v * value[k];
+    }
   }
 
   /// Take back all but a part of what was added.
@@ -270,7 +291,7 @@ void transport_convex(ControlVolumes& cv, const Block<N>& block, Halo&& halo,
 {
   fit_all(cv);
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned and cv.leaving[i] > 0)
+    if (cv.ours(i) and cv.leaving[i] > 0)
       slope<N>(cv, i, block.u);
   halo(std::span(cv.gradient.data(), std::size_t(2) * N * cv.num), 2 * N);
   const Convex<N, balls> convex{cv, block};
@@ -282,13 +303,11 @@ void transport_convex(ControlVolumes& cv, const Block<N>& block, Halo&& halo,
       break;
     halo(std::span(cv.factor.data(), std::size_t(cv.num)), 1);
   }
-  const auto passed = convex.add_limited();
+  convex.add_limited();
   const double part = guard(convex);
   if (part < 1)
     convex.take_back(part);
-  for (int k = 0; k < N; ++k)
-    for (std::size_t w = 0; w < num_ways; ++w)
-      block.book[k][w] += part * passed[k][w];
+  convex.book_limited(part);
   put(cv, block.u);
 }
 } // namespace remap::kernel

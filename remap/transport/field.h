@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,28 @@ struct Field
 /// Widest vector or tensor that is limited as one.
 inline constexpr int largest_group = 6;
 
+class Materials;
+
+/// A field that each material has for itself: one value per volume in each slot
+/// of the materials (materials/materials.h), limited within its material.
+struct MaterialField
+{
+  /// Shape (slots, components), ghosts up to date on entry; resized as mixed
+  /// cells come and go. Slots of mixed cells, in front of the parts, are 0, and
+  /// so are slots of materials that do not have the field.
+  std::vector<double>& values;
+  int components = 1;
+  int group = 1;                        ///< as `Field`
+  Bound bound = Bound::hull;            ///< as `Field`
+  std::span<const double> weights = {}; ///< as `Field`
+  std::span<const double> inflow = {};  ///< as `Field`
+  std::span<const double> least = {};   ///< as `Field`
+  std::span<const double> most = {};    ///< as `Field`
+  /// Does a material have it? Shape (materials), empty: all have. Void has
+  /// none.
+  std::span<const std::uint8_t> carriers = {};
+};
+
 /// All that travels in one remap, over regions that are computed once.
 struct Fields
 {
@@ -66,6 +89,12 @@ struct Fields
   /// Which of `cells` is the density that makes these masses; one component,
   /// > 0 everywhere.
   int density = -1;
+  /// What cells hold; it travels too. Null: nothing is told apart.
+  Materials* materials = nullptr;
+  std::span<const MaterialField> of_materials = {};
+  /// Which of `of_materials` is the density that makes the masses of corners,
+  /// as a cell's mixture; then `density` is not looked at.
+  int material_density = -1;
 };
 
 /// What a boundary facet with some marker does.
@@ -132,5 +161,9 @@ struct Ledger
   std::vector<Exchange> points;   ///< of all point fields
   std::vector<Exchange> nodes;    ///< of all nodal fields
   std::vector<Exchange> per_mass; ///< of all fields per mass: Σ mass · value
+  std::vector<Exchange> material_volume; ///< of each material
+  /// Components of all fields of materials, in order; of each field a row of
+  /// components for each material.
+  std::vector<Exchange> of_materials;
 };
 } // namespace remap

@@ -56,7 +56,7 @@ struct Gathered
     if constexpr (B > 0)
       std::copy_n(u[i], B, own);
     const Point c = cv.centroid[i];
-    for (std::int32_t j : (*cv.neighbours)[i])
+    for (std::int32_t j : cv.neighbours[i])
     {
       const Point d = cv.centroid[j] - c;
       const double d2 = dot(d, d);
@@ -90,7 +90,7 @@ inline constexpr double flat_part = 1e-4;
 /// distance. Neighbours on a line give the gradient along it, none gives none.
 inline void fit(ControlVolumes& cv, std::int32_t i)
 {
-  const auto around = (*cv.neighbours)[i];
+  const auto around = cv.neighbours[i];
   double near2 = 0;
   Gathered<0> s(cv, i, near2);
   if (const double mean = s.square / static_cast<double>(around.size());
@@ -128,7 +128,7 @@ void slope(ControlVolumes& cv, std::int32_t i, Values<B> u)
   const double* a = &cv.fit[std::size_t(4) * i];
   std::copy_n(u[i], B, own);
   const Point c = cv.centroid[i];
-  for (std::int32_t j : (*cv.neighbours)[i])
+  for (std::int32_t j : cv.neighbours[i])
   {
     const Point d = cv.centroid[j] - c;
     const double w = weight(d, a[3]);
@@ -160,11 +160,11 @@ template <int B>
 void fit_and_slope(ControlVolumes& cv, std::int32_t i, Values<B> u)
 {
   const Gathered<B> s(cv, i, 0, u);
-  const auto number = static_cast<double>((*cv.neighbours)[i].size());
+  const auto number = static_cast<double>(cv.neighbours[i].size());
   const double m = s.xy / s.xx;
   const double rest = s.yy - m * s.xy;
   if (not(s.nearest * number >= nearest_part * s.square
-          and rest >= flat_part * s.yy and s.xx >= flat_part * s.yy))
+          and rest > flat_part * s.yy and s.xx >= flat_part * s.yy))
   {
     fit(cv, i);
     return slope<B>(cv, i, u);
@@ -205,7 +205,7 @@ std::array<double, 2> foresee(const ControlVolumes& cv, std::int32_t i, int k,
   const Point at = cv.centroid[i] + d;
   double least = 0, most = 0;
   bool first = true;
-  for (std::int32_t j : (*cv.neighbours)[i])
+  for (std::int32_t j : cv.neighbours[i])
   {
     const double change =
         u[j][k] - u[i][k] + predict<B>(cv, j, k, at - cv.centroid[j]);
@@ -265,7 +265,7 @@ struct Limits
     if constexpr (L::sides)
     {
       const std::size_t at = std::size_t(B) * i + k;
-      for (std::int32_t j : (*cv.beside)[i])
+      for (std::int32_t j : cv.beside[i])
         factor =
             std::min(factor, L::side(raw(at, cv.centroid[j] - cv.centroid[i]),
                                      u[j][k] - u[i][k], cv.lo[at], cv.hi[at]));
@@ -283,7 +283,7 @@ void limited_slopes(ControlVolumes& cv, Values<B> u, const double* least,
                     const double* most, Halo&& halo)
 {
   const auto gives = [&cv](std::int32_t i)
-  { return i < cv.owned and cv.leaving[i] > 0; };
+  { return cv.ours(i) and cv.leaving[i] > 0; };
   constexpr auto wanted =
       L::extends ? ControlVolumes::everybody : ControlVolumes::donors;
   const bool first = cv.fitted < wanted;
@@ -291,12 +291,12 @@ void limited_slopes(ControlVolumes& cv, Values<B> u, const double* least,
   { first ? fit_and_slope<B>(cv, i, u) : slope<B>(cv, i, u); };
   cv.fitted = std::max(cv.fitted, wanted);
   for (std::int32_t i : cv.touched)
-    if (L::extends ? i < cv.owned : gives(i))
+    if (L::extends ? cv.ours(i) : gives(i))
       find(i);
   if constexpr (L::extends)
   {
     for (std::int32_t i : cv.ring)
-      if (i < cv.owned)
+      if (cv.ours(i))
         find(i);
     halo(std::span(cv.gradient.data(), std::size_t(2) * B * cv.num), 2 * B);
   }
@@ -310,7 +310,7 @@ void limited_slopes(ControlVolumes& cv, Values<B> u, const double* least,
     for (std::size_t p = 0; p < pieces.count; ++p)
     {
       const std::int32_t i = pieces.from[p];
-      if (i < 0 or i >= cv.owned)
+      if (i < 0 or not cv.ours(i))
         continue;
       const Point d = pieces.at[p] - cv.centroid[i];
       for (int k = 0; k < B; ++k)

@@ -28,12 +28,20 @@ struct Block
   const double* inflow = nullptr;  ///< row of the first marker, or null
   std::array<double, B> weights{}; ///< of a vector's components in its length
   std::span<const Boundary> kinds;
-  std::span<Exchange> book; ///< one entry a component
+  /// Entries of this block's first component and those behind it; a row of
+  /// components for each kind of volume.
+  std::span<Exchange> book;
 
   /// What comes in at an open boundary.
   [[nodiscard]] const double* given(std::int32_t marker) const
   {
     return inflow + u.stride * static_cast<std::size_t>(marker);
+  }
+  /// Where component k of what volume i exchanges with the outside is booked.
+  [[nodiscard]] Exchange& entry(const ControlVolumes& cv, std::int32_t i,
+                                int k) const
+  {
+    return book[u.stride * cv.kind(i) + static_cast<std::size_t>(k)];
   }
 };
 
@@ -59,8 +67,8 @@ void carry_outer(ControlVolumes& cv, const Block<B>& block)
         if (not in)
           amount += v * predict<B>(cv, from, k, d);
       cv.content[std::size_t(B) * own + k] += amount;
-      if (own < cv.owned)
-        block.book[k][std::size_t(way(kind, in))] += amount;
+      if (cv.ours(own))
+        block.entry(cv, own, k)[std::size_t(way(kind, in))] += amount;
     }
   }
 }
@@ -97,7 +105,7 @@ template <int B>
 void put(const ControlVolumes& cv, Values<B> u)
 {
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
     {
       const double inverse = 1 / cv.next[i];
       for (int k = 0; k < B; ++k)
@@ -111,7 +119,7 @@ inline void fit_all(ControlVolumes& cv)
   if (cv.fitted != cv.nobody)
     return;
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned and cv.leaving[i] > 0)
+    if (cv.ours(i) and cv.leaving[i] > 0)
       fit(cv, i);
   cv.fitted = cv.donors;
 }

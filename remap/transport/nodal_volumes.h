@@ -34,6 +34,9 @@ struct NodalVolumes : ControlVolumes
   std::vector<double> density; ///< of cells before the sub-cycle
   std::vector<double> passing; ///< mass out over half facets, (facets, 2)
   std::vector<double> mass;    ///< of nodes before the sub-cycle
+  /// Mass that left a cell at each corner for another cell there, not over a
+  /// facet, (cells, 3); empty if that cannot be.
+  std::vector<double> jump;
 
   /// @param[in] masses will there be fields per mass?
   void reserve(const Mesh& of, bool masses, int components)
@@ -216,6 +219,8 @@ private:
       rest[i] = density[c] * corner_volume<G>(c, i, x)
                 - rho * corner_volume<G>(c, i, y) - over_half(c, i, i)
                 - over_half(c, (i + 2) % 3, i);
+      if (not jump.empty())
+        rest[i] -= jump[std::size_t(3) * c + static_cast<std::size_t>(i)];
       circle += swept<G>(dual::facet(before, after, i)).v;
     }
     // What runs in a circle is what the dual facets sweep so.

@@ -19,7 +19,7 @@ double& value(const Field& field, int k, std::int32_t i)
 void Repair::find_room(const Field& field, int k, const ControlVolumes& cv)
 {
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
     {
       Work& w = _work[i];
       w.up = std::max(field.most[k] - value(field, k, i), 0.0) * cv.next[i];
@@ -51,8 +51,8 @@ void Repair::pass_on(const Field& field, int k, const ControlVolumes& cv,
   const auto ours = [&cv](const auto& call)
   {
     for (std::int32_t i : cv.touched)
-      if (i < cv.owned)
-        call(i, (*cv.neighbours)[i]);
+      if (cv.ours(i))
+        call(i, cv.neighbours[i]);
   };
   update(cv, halo);
   ours(
@@ -104,7 +104,7 @@ double Repair::spread(const Field& field, int k, const ControlVolumes& cv,
   find_room(field, k, cv);
   double sums[4] = {0, 0, 0, 0}; // excess, room up, room down, volume
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
     {
       sums[0] += _work[i].excess;
       sums[1] += _work[i].up;
@@ -120,7 +120,7 @@ double Repair::spread(const Field& field, int k, const ControlVolumes& cv,
   const double part = room > 0 ? std::min(std::abs(excess) / room, 1.0) : 0.0;
   const double sign = excess > 0 ? 1 : -1;
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
       // What finds no room stays in the sum: conserved, and reported.
       value(field, k, i) +=
           sign
@@ -136,7 +136,7 @@ double Repair::run(const Field& field, int k, const ControlVolumes& cv,
   double bad = 0;
   number = 0;
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
     {
       const double u = value(field, k, i);
       bad = std::max(bad, double(u < field.least[k] or u > field.most[k]));
@@ -149,7 +149,7 @@ double Repair::run(const Field& field, int k, const ControlVolumes& cv,
   { return 1e-12 * (std::isfinite(range) ? range : std::abs(end)); };
   _work.assign(std::max(_work.size(), std::size_t(cv.num)), Work{});
   for (std::int32_t i : cv.touched)
-    if (i < cv.owned)
+    if (cv.ours(i))
     {
       double& u = value(field, k, i);
       const double in = std::min(std::max(u, field.least[k]), field.most[k]);

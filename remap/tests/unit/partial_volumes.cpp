@@ -300,6 +300,38 @@ TEST_CASE("partial volumes: pieces fill the parts, cell by cell", "[domain]")
   }
 }
 
+TEST_CASE("partial volumes: far from the origin no digit is lost", "[domain]")
+{
+  // Everything on a lattice of 2^-16, so that a way of 2^20 is exact.
+  const double unit = std::exp2(-16), away = std::exp2(20);
+  const auto snap = [unit](double x) { return unit * std::round(x / unit); };
+  meshes::Data mesh = shaken(10, 4);
+  std::mt19937 random(3);
+  Ring ring = star(random, {0.5, 0.5}, 0.2, 0.5, 40);
+  for (double& x : mesh.x)
+    x = snap(x);
+  for (Point& p : ring)
+    p = {snap(p.x), snap(p.y)};
+  const auto near = partial_volumes<Geometry::plane>(Domain::polygon(ring),
+                                                     mesh.cells, mesh.x);
+  for (double& x : mesh.x)
+    x += away;
+  for (Point& p : ring)
+    p = p + Point{away, away};
+  const Domain domain = Domain::polygon(ring);
+  const auto far = partial_volumes<Geometry::plane>(domain, mesh.cells, mesh.x);
+  double worst = 0;
+  for (std::size_t c = 0; c < near.parts.size(); ++c)
+    worst = std::max(worst, std::abs(near.parts[c].v - far.parts[c].v));
+  CHECK(worst < 16 * eps * 0.1);
+  CHECK(near.mixed == far.mixed);
+  // The same sum with the coordinates as they are has no digits left.
+  double naive = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    naive += cross(ring[i], ring[(i + 1) % ring.size()]) / 2;
+  CHECK(std::abs(naive / domain.moments<Geometry::plane>().v - 1) > 1e-6);
+}
+
 TEST_CASE("partial volumes: no cells, and no domain", "[domain]")
 {
   const meshes::Data mesh = meshes::rectangle(2, 2, meshes::Diagonal::right);

@@ -135,23 +135,6 @@ Result smooth_and_remap(const Start& start, const ranks::Part& part,
   return out;
 }
 
-/// Cells to ranks: in stripes, in blocks, or one by one at random.
-std::vector<int> deal(const meshes::Data& data, int size, int how)
-{
-  std::vector<int> out;
-  std::mt19937 engine(99);
-  for (std::size_t c = 0; c < data.cells.size() / 3; ++c)
-  {
-    const double x = data.x[2 * data.cells[3 * c]];
-    const double y = data.x[2 * data.cells[3 * c] + 1];
-    const double at = how == 0   ? x
-                      : how == 1 ? std::fmod(3 * x + 2 * y, 1.0)
-                                 : std::generate_canonical<double, 32>(engine);
-    out.push_back(std::min(size - 1, static_cast<int>(at * size)));
-  }
-  return out;
-}
-
 /// Largest difference of owned rows, in global numbers.
 double gap(std::span<const double> all, std::span<const double> part,
            std::span<const std::int64_t> ids, int block)
@@ -177,7 +160,7 @@ TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
                Scheme(scheme::VanLeer{}), Scheme(scheme::Linear{}));
   const Start start(geometry, scheme);
   INFO(name_of(scheme));
-  ranks::World one(start.data, deal(start.data, 1, 0), 1);
+  ranks::World one(start.data, ranks::deal(start.data, 1, 0), 1);
   Result alone;
   one.run([&](int, const ranks::Part& p, const Host& host)
           { alone = smooth_and_remap(start, p, host); });
@@ -200,7 +183,7 @@ TEST_CASE("ranks: positions, fields and ledger do not depend on their number",
   // It did something.
   REQUIRE(gap(start.x, alone.x, whole.nodes, 2) > 1e-3);
 
-  ranks::World world(start.data, deal(start.data, size, how), size);
+  ranks::World world(start.data, ranks::deal(start.data, size, how), size);
   std::vector<Result> results(size);
   world.run([&](int r, const ranks::Part& p, const Host& host)
             { results[r] = smooth_and_remap(start, p, host); });
@@ -271,7 +254,7 @@ TEMPLATE_LIST_TEST_CASE("ranks: every smoother and kind of node, from a tangle",
       at.clear();
     return at;
   };
-  ranks::World one(data, deal(data, 1, 0), 1);
+  ranks::World one(data, ranks::deal(data, 1, 0), 1);
   std::vector<double> alone(x.size());
   one.run(
       [&](int, const ranks::Part& p, const Host& host)
@@ -283,7 +266,7 @@ TEMPLATE_LIST_TEST_CASE("ranks: every smoother and kind of node, from a tangle",
   REQUIRE(gap(x, alone, one.parts[0].nodes, 2) > 1e-3);
   const int size = GENERATE(2, 3);
   const int how = GENERATE(0, 2);
-  ranks::World world(data, deal(data, size, how), size);
+  ranks::World world(data, ranks::deal(data, size, how), size);
   std::vector<std::vector<double>> at(size);
   world.run([&](int r, const ranks::Part& p, const Host& host)
             { at[r] = run(p, host); });
