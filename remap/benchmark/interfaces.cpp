@@ -66,17 +66,16 @@ void count(benchmark::State& state, double cells)
                         | benchmark::Counter::kInvert);
 }
 
-template <class Method, Geometry G = Geometry::plane>
+template <class Method>
 void circle(benchmark::State& state)
 {
   const Circle circle(static_cast<int>(state.range(0)));
-  Interfaces interfaces(circle.mesh, {.geometry = G, .method = Method{}});
+  Interfaces interfaces(circle.mesh, {.method = Method{}});
   const Host host;
   for (auto _ : state)
     interfaces.reconstruct(circle.data.x, circle.materials, host);
   count(state, static_cast<double>(circle.materials.mixed().size()));
-  if (G == Geometry::plane)
-    state.counters["symdiff"] = circle.symmetric_difference(interfaces);
+  state.counters["symdiff"] = circle.symmetric_difference(interfaces);
 }
 
 /// Moment of fluid of one cell after the other, cells and moments at hand.
@@ -132,12 +131,6 @@ BENCHMARK(circle<reconstruction::MomentOfFluid>)
     ->Arg(128)
     ->Arg(512);
 BENCHMARK(kernel_moment_of_fluid);
-BENCHMARK(circle<reconstruction::Lvira, Geometry::axisymmetric>)
-    ->Name("lvira_axisymmetric")
-    ->Arg(128);
-BENCHMARK(circle<reconstruction::MomentOfFluid, Geometry::axisymmetric>)
-    ->Name("moment_of_fluid_axisymmetric")
-    ->Arg(128);
 BENCHMARK(cells_moment_of_fluid<Geometry::plane>)
     ->Name("moment_of_fluid_cells")
     ->Args({0, 3})

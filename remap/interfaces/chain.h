@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: many parts from volumes alone: cut off one after the other, in an
+// METHOD 3: many parts from volumes alone: cut off one after the other, in an
 // order that geometry gives.
 #pragma once
 

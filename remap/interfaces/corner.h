@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: moment of fluid in a triangle of the plane, with two parts: of all
+// METHOD 3: moment of fluid in a triangle of the plane, with two parts: of all
 // lines that leave each part its area, the one that brings the centroids
 // nearest to where they shall be.
 //

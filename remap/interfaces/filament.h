@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: a filament thinner than a cell: one part between two parallel
+// METHOD 3: a filament thinner than a cell: one part between two parallel
 // lines, the other on both sides. Two volumes and a centroid are as many
 // conditions as a direction and two positions are free, so the strip is found
 // from moments alone: Newton steps in the direction and the volume below the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: interfaces in all mixed cells, reconstructed from fractions and
+// METHOD 3: interfaces in all mixed cells, reconstructed from fractions and
 // centroids.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: three parts that meet in a point, each a wedge (Y junction). Half-
+// METHOD 3: three parts that meet in a point, each a wedge (Y junction). Half-
 // planes that nest cannot show it. With the point and one ray given, the
 // volumes give the other two rays in closed form, so three numbers minimise Σ
 // fraction · distance² of the centroids: damped Gauss–Newton steps with

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: least-squares volume-of-fluid: of all lines that give the cell its
+// METHOD 3: least-squares volume-of-fluid: of all lines that give the cell its
 // fraction, the one that gives the cells around theirs best, Σ (error of the
 // fraction)² over all that share a vertex. Exact for straight interfaces.
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: moment of fluid: fractions are kept, and centroids come as near to
+// METHOD 3: moment of fluid: fractions are kept, and centroids come as near to
 // the given ones as straight cuts allow. Looks at nothing but the cell.
 //
 // What is minimised, for two parts and for many: Σ fraction · distance² of the

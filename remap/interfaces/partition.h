@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: what tells the materials of a cell apart: straight cuts, in a
+// METHOD 3: what tells the materials of a cell apart: straight cuts, in a
 // binary tree. A chain of cuts is the nested reconstruction; filaments (the
 // same part on both sides of another) and points where three parts meet are
 // trees too. Any convex polygon is split by it, also one that leaves the cell:

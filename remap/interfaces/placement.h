@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: the line with a given normal that cuts a given volume off a convex
+// METHOD 3: the line with a given normal that cuts a given volume off a convex
 // polygon. Closed form in the plane; in axisymmetry (Pappus) the volume is a
 // cubic of the line's position between two vertices, solved by a safe Newton
 // search. Volumes are met to some eps of the polygon's, tiny ones to some eps

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: coordinates in which a polygon is round, for searches in slivers.
+// METHOD 3: coordinates in which a polygon is round, for searches in slivers.
 #pragma once
 
 #include "remap/geometry/polygon.h"

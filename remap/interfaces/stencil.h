@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: a mixed cell and the cells that share a vertex with it, for
+// METHOD 3: a mixed cell and the cells that share a vertex with it, for
 // reconstructions that look at volumes alone.
 #pragma once
 

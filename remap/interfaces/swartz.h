@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: the interface lies along the middles of the interfaces around it:
+// METHOD 3: the interface lies along the middles of the interfaces around it:
 // the line through the cell's own middle from which they are least off. From
 // Youngs', a few sweeps over all mixed cells. A middle stays where it is, to
 // first order, when its interface turns, so sweeps square the error, and

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: moment of fluid with any number of parts: the binary tree of
+// METHOD 3: moment of fluid with any number of parts: the binary tree of
 // straight cuts with the least Σ fraction · distance² of centroids.
 //
 // A polygon is cut in two for every way to share its parts out to the two

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: moment of fluid in a convex polygon, plane or axisymmetric, with
+// METHOD 3: moment of fluid in a convex polygon, plane or axisymmetric, with
 // two parts.
 //
 // A line that keeps the volume to its left turns once around the polygon. It

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// METHOD 4: the interface is normal to the gradient of the fraction. On
+// METHOD 3: the interface is normal to the gradient of the fraction. On
 // triangles: by least squares over the cells that share a vertex. The fastest,
 // and not exact for straight interfaces (order 1).
 //

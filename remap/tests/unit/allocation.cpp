@@ -7,6 +7,7 @@
 #include "remap/smoothing/smooth.h"
 #include "remap/tests/carry.h"
 #include "remap/tests/meshes.h"
+#include "remap/tests/partitions.h"
 
 #include <atomic>
 #include <catch2/catch_test_macros.hpp>
@@ -115,4 +116,29 @@ TEST_CASE("an overlay allocates nothing after set-up", "[allocation][overlay]")
   CHECK(good);
   CHECK(overlay.pieces().size() > touched.size());
   CHECK(after == before);
+}
+
+TEST_CASE("reconstruction allocates nothing after a first call",
+          "[allocation][interfaces]")
+{
+  const meshes::Data data =
+      meshes::rectangle(12, 12, meshes::Diagonal::crossed);
+  const Mesh mesh = data.mesh();
+  const auto x = meshes::shaken(data.x, 0.02, 5);
+  const Materials materials = partitions::lay<Geometry::plane>(
+      mesh, x, partitions::wye({0.51, 0.47}, 0.3), 3);
+  const Host host;
+  [&]<class... R>(std::tuple<R...>*)
+  {
+    const auto check = [&](auto method)
+    {
+      Interfaces interfaces(mesh, {.method = method});
+      interfaces.reconstruct(x, materials, host);
+      const long before = allocations;
+      interfaces.reconstruct(x, materials, host);
+      const long after = allocations;
+      CHECK(after == before);
+    };
+    (check(R{}), ...);
+  }(static_cast<Reconstructions*>(nullptr));
 }
