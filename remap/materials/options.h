@@ -6,6 +6,7 @@
 #include "remap/interfaces/library.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace remap
@@ -15,11 +16,15 @@ struct MaterialOptions
 {
   int number = 0;     ///< of materials; 0: cells hold no materials
   int components = 1; ///< of the widest field of materials that will come
-  Reconstruction reconstruction = reconstruction::MomentOfFluid{};
+  /// Filaments are not looked for: what facets sweep beyond a donor is taken
+  /// from its interfaces drawn on, so centroids are off by more than a corner
+  /// is, and would pass for filaments.
+  Reconstruction reconstruction = reconstruction::MomentOfFluid{
+      .filament = std::numeric_limits<double>::infinity()};
   /// Parts below this fraction of their cell are swept up: a cell near by that
   /// holds the material takes it and gives as much of another. Larger: cells
   /// become pure sooner, and interfaces move by that much.
-  double sliver = 1e-8;
+  double sliver = 1e-5;
   /// The material that comes in over open boundaries, by marker.
   std::vector<int> inflow = {};
 };

@@ -246,6 +246,45 @@ TEST_CASE("materials: moves of any length", "[remap][materials]")
         < 1e-13);
 }
 
+TEST_CASE("materials: slivers are swept up, and counted", "[remap][materials]")
+{
+  const auto method = GENERATE(Method::swept, Method::overlay);
+  const auto run = [&](double sliver, std::int64_t& swept, std::int64_t& left)
+  {
+    Scene s;
+    Remapper remapper(s.mesh, {.method = method,
+                               .materials = {.number = 4, .sliver = sliver}});
+    Ledger ledger;
+    auto x = s.x;
+    swept = 0;
+    for (unsigned k = 0; k < 10; ++k)
+    {
+      const auto y = meshes::shaken(s.data.x, 0.2 / n, k);
+      REQUIRE(remapper.remap(x, y, {.materials = &s.materials}, {}, ledger)
+              == Outcome::ok);
+      x = y;
+      swept += remapper.report().materials.slivers;
+    }
+    left = remapper.report().materials.slivers_left;
+    std::int64_t parts = 0;
+    for (std::size_t r = 0; r < s.materials.mixed().size(); ++r)
+      for (const Part& p : s.materials.parts(static_cast<std::int32_t>(r)))
+        parts += p.fraction < 1e-4 ? 1 : 0;
+    return parts;
+  };
+  std::int64_t swept = 0, left = 0;
+  const auto kept = run(0, swept, left);
+  CHECK(swept == 0);
+  CHECK(left == 0);
+  const auto few = run(1e-4, swept, left);
+  INFO(kept << " kept, " << few << " after " << swept << " were swept up");
+  CHECK(swept > 0);
+  CHECK(few == left);
+  CHECK(few <= kept);
+  if (method == Method::swept)
+    CHECK(few < kept / 4);
+}
+
 TEST_CASE("materials: input that cannot be is refused, untouched",
           "[remap][materials]")
 {
