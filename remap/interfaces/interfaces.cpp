@@ -23,8 +23,7 @@ int same_interface(std::span<const Part> a, const Order& order_a, int k,
         same[static_cast<int>(i) <= k][static_cast<int>(j) <= m] = true;
   const bool straight = same[0][0] and same[1][1];
   const bool crossed = same[0][1] and same[1][0];
-  const bool either = same[0][1] or same[1][0] or crossed;
-  if (straight and not either)
+  if (straight and not same[0][1] and not same[1][0])
     return 1;
   return crossed and not same[0][0] and not same[1][1] ? -1 : 0;
 }
