@@ -87,7 +87,7 @@ struct Branch
 
   /// Largest of three positive roots, from above it: Newton steps on the
   /// quartic fall monotonically there, since all its roots are real.
-  [[nodiscard]] double largest() const
+  [[nodiscard]] double largest(double tolerance = 1e-15) const
   {
     double s = bp / bb;
     for (int i = 0; i < 100; ++i)
@@ -98,7 +98,7 @@ struct Branch
       const double next = s - q / dq;
       if (not(next < s))
         break;
-      const bool done = s - next <= 1e-15 * s;
+      const bool done = s - next <= tolerance * s;
       s = next;
       if (done)
         break;

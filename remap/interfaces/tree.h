@@ -182,9 +182,24 @@ private:
       }
       return;
     }
+    if (std::popcount(parts) <= all_trees)
+      cut_in_two<1 << (all_trees - 1)>(p, whole, parts, best);
+    else
+      cut_in_two<1 << (most_parts - 1)>(p, whole, parts, best);
+    if (std::popcount(parts) == 2)
+      strip(p, whole, parts, best);
+    if (std::popcount(parts) == 3 and _count <= all_trees)
+      meet(p, parts, best);
+  }
+
+  /// The trees of a polygon with two parts or more.
+  template <int Most>
+  void cut_in_two(const Piece& p, const Moments& whole, unsigned parts,
+                  Found& best) const
+  {
     // The last part is always outside: the other half are the same cuts.
     const unsigned last = std::bit_floor(parts);
-    std::array<Way, 1 << (most_parts - 1)> ways;
+    std::array<Way, Most> ways;
     int num = 0;
     for (unsigned in = (parts - 1) & parts; in != 0; in = (in - 1) & parts)
       if ((in & last) == 0)
@@ -198,10 +213,6 @@ private:
       num = std::min(num, 2);
     for (int k = 0; k < num and ways[k].error < best.error; ++k)
       follow(p, parts, ways[k], best);
-    if (std::popcount(parts) == 2)
-      strip(p, whole, parts, best);
-    if (std::popcount(parts) == 3 and _count <= all_trees)
-      meet(p, parts, best);
   }
 
   /// Targets as fractions of a polygon's volume.

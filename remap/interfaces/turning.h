@@ -15,6 +15,9 @@
 #include "remap/interfaces/placement.h"
 #include "remap/interfaces/sort.h"
 
+#include <cstddef>
+#include <memory>
+
 namespace remap
 {
 namespace turning
@@ -83,7 +86,8 @@ struct Pair
     const Point b = last + t * (behind - last);
     const Moments m = core + one + piece<G>(a, last, b, radius);
     out.chord = {a, b};
-    out.off = Point{m.x / volume, m.y / volume} - target;
+    // By its own volume: round-off is the same in both.
+    out.off = (m.v > 0 ? m.centroid() : a) - target;
     const Point way = b - a;
     const double length = std::sqrt(dot(way, way));
     const Point along = (1 / length) * way, up = {-along.y, along.x};
@@ -250,18 +254,35 @@ void look_between(const Pair<G>& pair, Stand from, const Stand& to,
 template <Geometry G>
 int folds(const Pair<G>& pair, const Stand& at, double* s)
 {
-  constexpr double slack = G == Geometry::plane ? 1e-8 : 0.1;
+  constexpr double slack = G == Geometry::plane ? 1e-8 : 0.02;
+  constexpr double tolerance = G == Geometry::plane ? 1e-12 : 1e-9;
   Corner corner;
   if (not corner.load(pair, at))
     return bends(pair, at, s);
   if (not corner.branch.folds(slack))
     return 0;
-  const double far = corner.branch.largest(),
-               near =
-                   corner.branch.fraction / corner.branch.mirrored().largest();
+  const double far = corner.branch.largest(tolerance),
+               near = corner.branch.fraction
+                      / corner.branch.mirrored().largest(tolerance);
   for (int i = 0; const double r : {far, std::sqrt(near * far), near})
     s[i++] = corner.apex + corner.unit * r;
   return 3 + bends(pair, at, s + 3);
+}
+
+/// No centroid between two chords is nearer. Its way is a curve that turns
+/// left, along each chord where it is: it lies to the left of both, and to the
+/// right of the straight way.
+inline double bound(const Stand& from, const Stand& to)
+{
+  const auto beyond = [](const Stand& x)
+  {
+    const Point way = x.chord.b - x.chord.a;
+    return cross(way, x.off) / std::sqrt(dot(way, way));
+  };
+  const Point way = to.off - from.off;
+  const double straight = cross(from.off, way) / std::sqrt(dot(way, way));
+  // NaN of a chord without length is no bound.
+  return std::max(std::max(std::max(0.0, beyond(from)), beyond(to)), straight);
 }
 
 /// Minima between two chords of a pair of edges.
@@ -270,16 +291,17 @@ void look(const Pair<G>& pair, const Stand& from, const Stand& to, Best& best,
           int depth = 0)
 {
   best.take(to);
-  if (not(from.s > to.s))
+  if (const double b = bound(from, to);
+      not(from.s > to.s) or b * b > best.distance2)
     return;
   if constexpr (G == Geometry::axisymmetric)
   {
-    // Turns of at most a twentieth of the circle, where the weight does not
+    // Turns of at most a twelfth of the circle, where the weight does not
     // change too much.
     const Point a = from.chord.b - from.chord.a, b = to.chord.b - to.chord.a;
     const double with = dot(a, b);
     if (depth < 4
-        and not(with > 0 and with * with >= 0.9 * dot(a, a) * dot(b, b)))
+        and not(with > 0 and with * with >= 0.75 * dot(a, a) * dot(b, b)))
       if (const double x = pair.between(from.s, to.s); x < from.s and x > to.s)
       {
         const Stand mid = pair.at(x);
@@ -298,6 +320,59 @@ void look(const Pair<G>& pair, const Stand& from, const Stand& to, Best& best,
   look_between(pair, from, to, s, num, best);
 }
 
+/// Chords between two lines through vertices.
+template <Geometry G>
+struct Interval
+{
+  Pair<G> pair;
+  Stand from, to;
+  double bound = 0;
+};
+
+/// All chords from edge i that cut off the volume: an interval for each edge
+/// that they end on.
+///
+/// @param[in] j, end first and last of these edges
+/// @param[out] out   room for as many as there are vertices
+/// @return how many
+template <Geometry G, int N>
+int intervals(const Polygon<N>& p, int i, int j, int end, double volume,
+              Point target, double radius, Interval<G>* out)
+{
+  const int n = p.size, first = i + 1 < n ? i + 1 : 0;
+  double s = 1;
+  for (int k = 0; k < n; ++k)
+  {
+    const int behind = j + 1 < n ? j + 1 : 0;
+    Interval<G>& x = *std::construct_at(out + k);
+    x.pair = {p[i], p[first], p[j], p[behind], {}, radius, volume, target};
+    for (int c = first; c != j;)
+    {
+      const int next = c + 1 < n ? c + 1 : 0;
+      if (c != first)
+        x.pair.core += piece<G>(p[first], p[c], p[next], radius);
+      c = next;
+    }
+    double to = 0;
+    if (j != end)
+    {
+      // Where the far end is at `behind`.
+      Moments more = x.pair.core;
+      if (j != first)
+        more += piece<G>(p[first], p[j], p[behind], radius);
+      to = share<G>(p[behind], p[first], p[i], radius, more.v - volume);
+    }
+    x.from = x.pair.at(s);
+    s = std::min(to, s);
+    x.to = x.pair.at(s);
+    x.bound = bound(x.from, x.to);
+    if (j == end)
+      return k + 1;
+    j = behind;
+  }
+  return n;
+}
+
 /// The nearest centroid to the left of a chord.
 /// @param[in] p      measured from a point at `radius`
 /// @param[in] volume at most about half of all
@@ -305,46 +380,30 @@ template <Geometry G, int N>
 Best nearest(const Polygon<N>& p, double volume, Point target, double radius)
 {
   const int n = p.size;
-  Best best;
-  int j = reach<G>(p, 0, volume, radius);
-  const int start = j;
-  for (int i = 0; i < n; ++i)
+  // Room that is not cleared first: most of it stays unused.
+  alignas(Interval<G>) std::byte room[2 * N * sizeof(Interval<G>)];
+  Interval<G>* const all = reinterpret_cast<Interval<G>*>(room);
+  int num = 0;
+  const int start = reach<G>(p, 0, volume, radius);
+  for (int i = 0, j = start; i < n; ++i)
   {
     const int first = i + 1 < n ? i + 1 : 0;
     const int end = first == 0 ? start : reach<G>(p, first, volume, radius);
-    double s = 1;
-    // The far end passes vertices while the near end walks along edge i.
-    for (int k = 0; k < n; ++k)
-    {
-      const int behind = j + 1 < n ? j + 1 : 0;
-      Pair<G> pair = {p[i], p[first], p[j],   p[behind],
-                      {},   radius,   volume, target};
-      for (int c = first; c != j;)
-      {
-        const int next = c + 1 < n ? c + 1 : 0;
-        if (c != first)
-          pair.core += piece<G>(p[first], p[c], p[next], radius);
-        c = next;
-      }
-      double to = 0;
-      if (j != end)
-      {
-        // Where the far end is at `behind`.
-        const Moments more =
-            pair.core
-            + (j == first ? Moments{}
-                          : piece<G>(p[first], p[j], p[behind], radius));
-        to = share<G>(p[behind], p[first], p[i], radius, more.v - volume);
-      }
-      const Stand a = pair.at(s), b = pair.at(std::min(to, s));
-      best.take(a);
-      look(pair, a, b, best);
-      s = std::min(to, s);
-      if (j == end)
-        break;
-      j = behind;
-    }
+    num += intervals<G>(p, i, j, end, volume, target, radius, all + num);
+    j = end;
   }
+  // The most promising first: it often leaves nothing to the others.
+  Best best;
+  std::array<int, 2 * N> order;
+  for (int i = 0; i < num; ++i)
+  {
+    order[i] = i;
+    best.take(all[i].from);
+  }
+  sort_few(order.data(), num,
+           [&](int a, int b) { return all[a].bound < all[b].bound; });
+  for (int i = 0; i < num; ++i)
+    look(all[order[i]].pair, all[order[i]].from, all[order[i]].to, best);
   return best;
 }
 } // namespace turning

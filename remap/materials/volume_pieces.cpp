@@ -66,16 +66,40 @@ void VolumeTransport::share(std::int32_t material, const Moments& m)
   _shares.push_back({material, m});
 }
 
+/// The one material of all met cells without an interface; -1 if there are two,
+/// or if old cells may not fill the new one.
+std::int32_t VolumeTransport::material_of_rest() const
+{
+  if (_outline_moved or not _walk.edges().empty())
+    return -1;
+  std::int32_t material = -1;
+  for (const auto& [c, cuts] : _walk.met())
+  {
+    if (_front_of[c] >= 0)
+      continue;
+    const std::int32_t here = _call.materials->pure(c);
+    if (material >= 0 and here != material)
+      return -1;
+    material = here;
+  }
+  return material;
+}
+
 /// Overlaps of a new cell with the old ones that it met, by material.
 /// @param[in] count_only for a cell of another rank: only what our fronts give
 template <Geometry G>
 void VolumeTransport::gather(const bent::Cell& target, bool count_only)
 {
   const Materials& m = *_call.materials;
+  // Cells without an interface are of one material, mostly: it has the rest.
+  const std::int32_t rest = count_only ? -1 : material_of_rest();
+  Moments others;
   for (const auto& [c, cuts] : _walk.met())
   {
     const std::int32_t s = _front_of[c];
     if (count_only and (s < 0 or c >= _mesh->owned_cells()))
+      continue;
+    if (rest >= 0 and s < 0)
       continue;
     const Triangle t = _walk.place(_call.x_old, c, target.origin);
     bent::Region room[2];
@@ -94,6 +118,7 @@ void VolumeTransport::gather(const bent::Cell& target, bool count_only)
         _fronts[s].length = std::max(_fronts[s].length, target.length);
         _taken.emplace_back(_fronts[s].first + part, got.v);
       }
+      others += got;
       if (not count_only)
         share(m.row(c) < 0 ? m.pure(c) : m.parts(m.row(c))[part].material, got);
     };
@@ -105,6 +130,9 @@ void VolumeTransport::gather(const bent::Cell& target, bool count_only)
       bent::split_by<G>(*piece, by, by.count > 0 ? 0 : ~0, target.origin, use);
     }
   }
+  if (rest >= 0)
+    if (const Moments left = target.whole - others; left.v > 0)
+      share(rest, left);
 }
 
 /// The longest part of an outline inside a place, by its facet, or -1.

@@ -154,6 +154,7 @@ private:
   template <Geometry G>
   void carry_cell(std::int32_t d);
   [[nodiscard]] bool alone(std::int32_t& material) const;
+  [[nodiscard]] std::int32_t material_of_rest() const;
   template <Geometry G>
   void gather(const bent::Cell& target, bool count_only);
   void share(std::int32_t material, const Moments& m);

@@ -50,7 +50,7 @@ ERRORS = [
 COURANTS = [0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0]
 PERIODS = [1, 2, 3, 4, 6, 8, 10, 12]
 PICTURES = [(MAIN, "moment of fluid"), ("lvira", "LVIRA"), ("donor_cell", "donor cell")]
-COLOURS = [*common.COLOURS, "#888888"]
+COLOURS = [*common.COLOURS, "#888888", "#444444"]
 
 
 def program():
@@ -102,11 +102,14 @@ def measured(tool, methods):
 
 
 def label(method):
-    return {"lvira": "LVIRA"}.get(method, method.replace("_", " "))
+    names = {"lvira": "LVIRA", "one_cut": "moment of fluid, no filaments"}
+    return names.get(method, method.replace("_", " "))
 
 
 def chosen(rows, **wanted):
-    return [row for row in rows if all(str(row[k]) == str(v) for k, v in wanted.items())]
+    return [
+        row for row in rows if all(str(row[k]) == str(v) for k, v in wanted.items())
+    ]
 
 
 def seconds(row):
@@ -185,7 +188,9 @@ def picture(tool, name, case, time, n):
     blue = common.plt.get_cmap("Blues")
     for j, (_, method, text) in enumerate(rows):
         words = [tool, "draw", case, time, method, n, COURANT]
-        for ax, (when, (values, corners)) in zip(axes[:, j], polygons(output(words)).items()):
+        for ax, (when, (values, corners)) in zip(
+            axes[:, j], polygons(output(words)).items()
+        ):
             if method == "donor_cell":
                 colours = [blue(v) for v in values]
             else:
@@ -201,7 +206,10 @@ def picture(tool, name, case, time, n):
                 angle = [2 * 3.141592653589793 * k / 200 for k in range(201)]
                 np = common.np
                 ax.plot(
-                    0.5 + 0.15 * np.cos(angle), 0.75 + 0.15 * np.sin(angle), "k-", lw=0.6
+                    0.5 + 0.15 * np.cos(angle),
+                    0.75 + 0.15 * np.sin(angle),
+                    "k-",
+                    lw=0.6,
                 )
                 ax.set(xlim=(0.3, 0.7), ylim=(0.55, 0.95))
             moment = "half time" if when == "half" else "end, enlarged"

@@ -10,12 +10,15 @@
 //   interface_cases draw CASE T METHOD SQUARES COURANT
 //
 // draw prints polygons: half or end, material or mean, x y x y …; the others
-// the numbers of `print`. METHOD may be donor_cell, for run and draw.
+// the numbers of `print`. METHOD may be donor_cell, for run and draw,
+// and one_cut: moment of fluid without filaments.
 
 #include "remap/tests/motion.h"
 
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <vector>
 
 using namespace remap;
@@ -25,6 +28,16 @@ using motion::Setting;
 
 namespace
 {
+/// A reconstruction by its name; `one_cut` is moment of fluid that sees no
+/// filaments.
+std::optional<Reconstruction> method_named(const std::string& name)
+{
+  if (name == "one_cut")
+    return reconstruction::MomentOfFluid{
+        .filament = std::numeric_limits<double>::infinity()};
+  return find<Reconstructions>(name);
+}
+
 void print(const std::string& method, int squares, double number,
            const Result& r)
 {
@@ -41,7 +54,7 @@ Result result_of(const Case& what, const std::string& method, Setting how)
 {
   if (method == "donor_cell")
     return motion::run_donor_cell(what, how);
-  how.method = *find<Reconstructions>(method);
+  how.method = *method_named(method);
   return motion::run(what, how);
 }
 
@@ -82,7 +95,7 @@ void fraction_cases(const std::string& method)
     out.cells = mesh.num_cells();
     out.steps = 1;
     out.mixed = static_cast<double>(now.mixed().size());
-    Interfaces interfaces(mesh, {.method = *find<Reconstructions>(method)});
+    Interfaces interfaces(mesh, {.method = *method_named(method)});
     VolumeTransport transport(mesh, {});
     MaterialLedger ledger;
     interfaces.reconstruct(data.x, now, {});
@@ -156,7 +169,7 @@ void draw(const Case& what, const std::string& method, Setting how)
         });
     return;
   }
-  how.method = *find<Reconstructions>(method);
+  how.method = *method_named(method);
   how.look = [&](bool end, const eulerian::Run& run)
   {
     const Materials& m = run.materials;
@@ -193,11 +206,12 @@ int main(int argc, char** argv)
   const auto known = [](const std::string& method, bool donor)
   {
     return (donor and method == "donor_cell")
-           or find<Reconstructions>(method).has_value();
+           or method_named(method).has_value();
   };
   if (words.size() == 1 and words[0] == "methods")
     for (const std::string& name : names<Reconstructions>())
-      std::printf("%s\n", name.c_str());
+      std::printf("%s\n%s", name.c_str(),
+                  name == "moment_of_fluid" ? "one_cut\n" : "");
   else if (words.size() == 2 and words[0] == "fraction"
            and known(words[1], false))
     fraction_cases(words[1]);

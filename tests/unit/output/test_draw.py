@@ -16,6 +16,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parents[3] / "cpp" / "output"))
 import draw  # noqa: E402
 import draw_charts  # noqa: E402
+import draw_domains  # noqa: E402
 import draw_fields  # noqa: E402
 import read_run  # noqa: E402
 
@@ -168,6 +169,33 @@ def write_run(folder, pieces=1, size=0.05, n=10):
         ],
     }
     (folder / "pictures.json").write_text(json.dumps(plan))
+    return folder
+
+
+def write_domain(folder):
+    """Two cells; a domain holds one and three quarters of the other."""
+    folder.mkdir()
+    points = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    share = {"half": np.array([1.0, 0.75])}
+    cells = np.array([[0, 1, 2], [0, 2, 3]])
+    write_vtu(folder / "f.vtu", points, cells, {}, share, np.arange(4), [0, 0])
+    (folder / "fields.pvd").write_text(
+        '<VTKFile><DataSet timestep="0" file="f.vtu" /></VTKFile>'
+    )
+    (folder / "half.txt").write_text("0 0\n1 0\n1 1\n0 1\n\n.1 .2\n.1 .3\n.2 .2\n")
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
+    corners += [[0, 0, 0], [0.5, 0.5, 0], [1, 0.5, 0], [0, 0.5, 0]]
+    (folder / "half.vtp").write_text(
+        f"<VTKFile><PolyData><Piece><Points>{array(None, corners)}</Points><Polys>"
+        f"{array('connectivity', np.arange(7), 'Int64')}"
+        f"{array('offsets', [3, 7], 'Int64')}</Polys><CellData>"
+        f"{array('share', [1.0, 0.75])}</CellData></Piece></PolyData></VTKFile>"
+    )
+    domain = {"file": "half.png", "name": "half"}
+    domain |= {"outline": "half.txt", "pieces": "half.vtp"}
+    plan = {"title": "Half", "axisymmetric": True, "curves": "curves.csv"}
+    plan |= {"charts": [], "fields": [], "field_file": "fields.pvd"}
+    (folder / "pictures.json").write_text(json.dumps(plan | {"domains": [domain]}))
     return folder
 
 
@@ -341,6 +369,32 @@ class Draw(unittest.TestCase):
         self.assertIn("fields000002.vtu", called("run", run))
         (run / "curves.csv").write_text("time,z_B\n0\n")
         self.assertIn("curves.csv", called("run", run))
+
+    def test_a_domain_is_drawn_beside_its_pieces(self):
+        folder = write_domain(self.folder / "domain")
+        self.assertIsNone(called("run", folder))
+        self.assertGreater(png_size(folder / "half.png")[0], 1000)
+        rings = read_run.read_rings(folder / "half.txt")
+        self.assertEqual([len(r) for r in rings], [4, 3])
+        pieces = read_run.read_polygons(folder / "half.vtp")
+        self.assertEqual([len(p) for p in pieces.polygons], [3, 4])
+        self.assertEqual(list(pieces.data["share"]), [1.0, 0.75])
+        self.assertEqual(pieces.polygons[1][2].tolist(), [1.0, 0.5])
+        (folder / "half.txt").write_text("0 0\n1 x\n")
+        self.assertIn("half.txt", called("run", folder))
+        (folder / "half.vtp").unlink()
+        (folder / "half.txt").write_text("0 0\n1 0\n1 1\n")
+        self.assertIn("half.vtp", called("run", folder))
+
+    def test_neighbours_have_colours_of_their_own(self):
+        _, cells, _, _ = block(6, 0)
+        chosen = range(0, len(cells), 2)
+        colour = draw_domains.neighbours_apart(cells, chosen)
+        for c in chosen:
+            for d in chosen:
+                if c < d and len(set(cells[c]) & set(cells[d])) == 2:
+                    self.assertNotEqual(colour[c], colour[d])
+        self.assertGreater(len(set(colour.values())), 4)
 
     def test_formulae_are_printed_as_such(self):
         self.assertEqual(draw_charts.pretty("(2+pi)/sqrt(3)"), "(2+π)/√3")

@@ -132,6 +132,12 @@ TEST_CASE("pictures: pictures.json says what the scene asked for")
   CHECK(j["fields"][1]["unit"] == "Pa");
   CHECK(j["fields"][1]["time"] == 0.5);
   CHECK(j["fields"][1]["arrows"].is_null());
+  CHECK(j["domains"].empty());
+  const Pictures logo{.domains = {"logo"}};
+  const json k = json::parse(to_json(logo));
+  CHECK(k["domains"][0]["file"] == "logo.png");
+  CHECK(k["domains"][0]["outline"] == "logo.txt");
+  CHECK(k["domains"][0]["pieces"] == "logo.vtp");
 }
 
 TEST_CASE("pictures: a run's curves become a picture")
