@@ -22,6 +22,8 @@ enum class Outcome
   beyond_halo,     ///< overlay: a cell meets cells that this rank does not see
   bad_materials,   ///< fractions that do not add up, a part outside its cell;
                    ///< nothing was changed
+  no_mass,         ///< a node with a velocity has no mass around it: void needs
+                   ///< a small density; nothing was changed
 };
 
 /// The outcome in words.
@@ -45,6 +47,8 @@ constexpr std::string_view describe(Outcome outcome)
     return "the move needs more sub-cycles than allowed";
   case Outcome::bad_materials:
     return "a cell's fractions do not add up, or a part lies outside its cell";
+  case Outcome::no_mass:
+    return "a node with a velocity has no mass around it";
   case Outcome::beyond_halo:
     return "a cell moved to where this rank does not see the mesh";
   }

@@ -2,6 +2,8 @@
 
 #include "remap/remap.h"
 
+#include "remap/materials/sound.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -13,6 +15,9 @@ std::vector<std::string> Options::complaints() const
   std::vector<std::string> out;
   if (not(max_loss > 0))
     out.push_back("max_loss: must be positive");
+  if (materials.number > 0 and max_loss > 1)
+    out.push_back("max_loss: at most 1 with materials, which cannot give more "
+                  "than a cell has");
   if (max_cycles < 1)
     out.push_back("max_cycles: must be at least 1");
   if (cell_components < 0 or nodal_components < 0 or point_components < 0)
@@ -438,6 +443,19 @@ void Remapper::prepare_halos(const Host& host)
     { host.update_cells(v, points * block); };
 }
 
+/// Has a node of ours only void around it?
+bool Remapper::some_node_is_massless() const
+{
+  for (std::int32_t i = 0; i < _mesh->owned_nodes(); ++i)
+  {
+    const auto around = _mesh->node_cells()[i];
+    if (std::none_of(around.begin(), around.end(),
+                     [this](std::int32_t c) { return _mixture[c] > 0; }))
+      return true;
+  }
+  return false;
+}
+
 Outcome Remapper::remap(std::span<const double> x_old,
                         std::span<const double> x_new, const Fields& fields,
                         const Host& host, Ledger& ledger)
@@ -457,7 +475,7 @@ Outcome Remapper::remap(std::span<const double> x_old,
   _x_old = x_old;
   _x_new = x_new;
   const bool sound = not good or not fields.materials
-                     or _materials->sound(*fields.materials, x_old);
+                     or remap::sound(*_mesh, *fields.materials, x_old);
   if (good)
     find_touched(x_old, x_new);
   double state[4] = {fit ? 0.0 : 1.0, good ? 0.0 : 1.0, sound ? 0.0 : 1.0,
@@ -472,8 +490,12 @@ Outcome Remapper::remap(std::span<const double> x_old,
   if (_materials)
     _materials->start(fields);
   if (_masses and mixture(fields))
+  {
     for (std::int32_t c = 0; c < _mesh->num_cells(); ++c)
       _mixture[c] = _materials->mixture(c);
+    if (host.max(some_node_is_massless() ? 1.0 : 0.0) > 0)
+      return Outcome::no_mass;
+  }
   std::size_t entries = 2;
   for (const auto& list :
        {fields.cells, fields.points, fields.nodes, fields.per_mass})

@@ -146,6 +146,7 @@ private:
                                const Fields& fields) const;
   [[nodiscard]] bool fits(const Field& field, std::int32_t num,
                           int components) const;
+  [[nodiscard]] bool some_node_is_massless() const;
   void find_touched(std::span<const double> x_old,
                     std::span<const double> x_new);
   void exchange_touched(const Host& host);

@@ -164,7 +164,7 @@ std::vector<double> gather(MPI_Comm comm, const std::vector<double>& mine)
 
 /// Pieces of owned cells from all ranks, on the first one.
 output::Polygons gather_pieces(const mesh::Domain& mesh,
-                               const ::remap::Pieces& pieces,
+                               const ::remap::DomainPieces& pieces,
                                std::span<const double> share)
 {
   // cell, share, number of points, points
@@ -206,7 +206,7 @@ LaidDomain lay_over(const mesh::Domain& mesh, const ::remap::Domain& domain)
   std::vector<std::int32_t> cells;
   for (const auto& cell : mesh.cells)
     cells.insert(cells.end(), cell.begin(), cell.end());
-  ::remap::Pieces pieces;
+  ::remap::DomainPieces pieces;
   const auto laid =
       ::remap::partial_volumes<G>(domain, cells, mesh.initial_x, &pieces);
   LaidDomain out;

@@ -88,7 +88,7 @@ class Walk
 {
 public:
   Walk(const Domain& domain, std::span<const std::int32_t> cells,
-       std::span<const double> x, Pieces* pieces)
+       std::span<const double> x, DomainPieces* pieces)
       : _cells(cells), _x(x), _wants_pieces(pieces != nullptr),
         _order(cells.size() / 3)
   {
@@ -329,7 +329,7 @@ private:
   }
 
   /// The pieces in order of cells.
-  void collect(Pieces& out) const
+  void collect(DomainPieces& out) const
   {
     std::vector<std::size_t> order(_pieces.size());
     std::iota(order.begin(), order.end(), 0);
@@ -352,7 +352,7 @@ private:
   Stack _stack;
   Ring _ring, _next;
   std::vector<Ring> _kept;
-  Pieces _pieces;
+  DomainPieces _pieces;
   PartialVolumes _out;
 };
 } // namespace
@@ -360,16 +360,16 @@ private:
 template <Geometry G>
 PartialVolumes partial_volumes(const Domain& domain,
                                std::span<const std::int32_t> cells,
-                               std::span<const double> x, Pieces* pieces)
+                               std::span<const double> x, DomainPieces* pieces)
 {
   return Walk<G>(domain, cells, x, pieces).result();
 }
 
 template PartialVolumes
 partial_volumes<Geometry::plane>(const Domain&, std::span<const std::int32_t>,
-                                 std::span<const double>, Pieces*);
+                                 std::span<const double>, DomainPieces*);
 template PartialVolumes
 partial_volumes<Geometry::axisymmetric>(const Domain&,
                                         std::span<const std::int32_t>,
-                                        std::span<const double>, Pieces*);
+                                        std::span<const double>, DomainPieces*);
 } // namespace remap

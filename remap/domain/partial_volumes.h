@@ -15,7 +15,7 @@
 namespace remap
 {
 /// Convex polygons of 3 or 4 vertices, counter-clockwise, each in one cell.
-struct Pieces
+struct DomainPieces
 {
   std::vector<Point> points;
   std::vector<std::int32_t> offsets = {0}; ///< size num + 1, into points
@@ -53,5 +53,5 @@ struct PartialVolumes
 template <Geometry G>
 [[nodiscard]] PartialVolumes
 partial_volumes(const Domain& domain, std::span<const std::int32_t> cells,
-                std::span<const double> x, Pieces* pieces = nullptr);
+                std::span<const double> x, DomainPieces* pieces = nullptr);
 } // namespace remap

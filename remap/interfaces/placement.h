@@ -35,7 +35,8 @@ struct Chord
 /// Cut of a triangle in the plane.
 ///
 /// @param[in] t        counter-clockwise
-/// @param[in] normal   out of what is cut off; any length but 0
+/// @param[in] normal   out of what is cut off; any length; 0, where nothing
+/// tells: x
 /// @param[in] fraction of the area to be cut off, and its `rest` = 1 −
 /// fraction,
 ///                     both given so that neither loses digits
@@ -43,7 +44,7 @@ inline HalfPlane place(const Triangle& t, Point normal, double fraction,
                        double rest)
 {
   const double length = std::sqrt(dot(normal, normal));
-  normal = (1 / length) * normal;
+  normal = length > 0 ? (1 / length) * normal : Point{1, 0};
   int low = 0, mid = 1, top = 2;
   double d[3];
   for (int i = 0; i < 3; ++i)

@@ -151,8 +151,7 @@ void MaterialTransport::cut_boundary(std::int32_t p, const ByPart& parts)
 /// Overlaps of old with new cells.
 template <Geometry G>
 void MaterialTransport::cut_overlaid(std::span<const double> x,
-                                     std::span<const double> y,
-                                     const Overlay& overlay)
+                                     std::span<const double> y)
 {
   const auto place = [this](std::span<const double> at, std::int32_t c)
   {
@@ -226,7 +225,8 @@ template void
                                                   std::span<const double>);
 template void MaterialTransport::cut_swept<Geometry::axisymmetric>(
     std::span<const double>, std::span<const double>);
-template void MaterialTransport::cut_overlaid<Geometry::plane>(
-    std::span<const double>, std::span<const double>, const Overlay&);
+template void
+    MaterialTransport::cut_overlaid<Geometry::plane>(std::span<const double>,
+                                                     std::span<const double>);
 template void MaterialTransport::cut_overlaid<Geometry::axisymmetric>(
-    std::span<const double>, std::span<const double>, const Overlay&);
+    std::span<const double>, std::span<const double>);

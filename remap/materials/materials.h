@@ -13,9 +13,9 @@
 #include "remap/interfaces/partition.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace remap
@@ -126,9 +126,11 @@ public:
   }
   /// Make a cell mixed: a new row behind all others.
   /// @param[in] parts two or more, by ascending material, fractions add up to 1
+  /// @throws std::invalid_argument with less or more than a cell can hold
   void add_row(std::int32_t c, std::span<const Part> parts)
   {
-    assert(parts.size() > 1 and parts.size() <= most_parts);
+    if (parts.size() < 2 or parts.size() > most_parts)
+      throw std::invalid_argument("parts of a mixed cell: from 2 to 8");
     _of_cell[c] = ~static_cast<std::int32_t>(_mixed.size());
     _mixed.push_back(c);
     _parts.insert(_parts.end(), parts.begin(), parts.end());

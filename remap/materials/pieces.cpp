@@ -380,7 +380,7 @@ void MaterialTransport::open(std::span<const double> x,
   begin();
   _interfaces.reconstruct(x, *_materials, host);
   if (overlay)
-    cut_overlaid<G>(x, y, *overlay);
+    cut_overlaid<G>(x, y);
   else
     cut_swept<G>(x, y);
   set_parts(cv.volume);

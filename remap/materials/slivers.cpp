@@ -25,15 +25,19 @@ struct Swap
   double volume;
 };
 
-double largest_common(const Materials& m, std::int32_t c, std::int32_t d,
-                      std::int32_t but, std::int32_t& material)
+using Volume = std::function<double(std::int32_t)>;
+
+/// Volume of a material that both cells hold as much of, at least.
+double largest_common(const Materials& m, const Volume& volume, std::int32_t c,
+                      std::int32_t d, std::int32_t but, std::int32_t& material)
 {
   double best = 0;
   for (const Part& p : m.parts(m.row(c)))
-    if (const double f = std::min(p.fraction, m.fraction(d, p.material));
-        p.material != but and f > best)
+    if (const double v = std::min(p.fraction * volume(c),
+                                  m.fraction(d, p.material) * volume(d));
+        p.material != but and v > best)
     {
-      best = f;
+      best = v;
       material = p.material;
     }
   return best;
@@ -41,21 +45,23 @@ double largest_common(const Materials& m, std::int32_t c, std::int32_t d,
 
 /// The exchange that rids a cell of its smallest part, with the neighbour that
 /// has most of what it needs; `with` < 0: none has.
-Swap swap_of(const Mesh& mesh, const Materials& m, std::int32_t c, double least)
+Swap swap_of(const Mesh& mesh, const Materials& m, const Volume& volume,
+             std::int32_t c, double least)
 {
   const auto parts = m.parts(m.row(c));
   const Part& p = *std::min_element(parts.begin(), parts.end(),
                                     [](const Part& a, const Part& b)
                                     { return a.fraction < b.fraction; });
-  Swap out{c, -1, p.material, -1, p.fraction};
-  double best = plenty * least;
+  Swap out{c, -1, p.material, -1, p.fraction * volume(c)};
+  double best = plenty * least * volume(c);
   for (std::int32_t d : mesh.cell_cells()[c])
   {
     if (m.row(d) < 0)
       continue; // it has nothing else to give
     std::int32_t gets = -1;
-    const double has = std::min(m.fraction(d, p.material),
-                                largest_common(m, c, d, p.material, gets));
+    const double has =
+        std::min(m.fraction(d, p.material) * volume(d),
+                 largest_common(m, volume, c, d, p.material, gets));
     if (has > best)
     {
       best = has;
@@ -146,8 +152,7 @@ remap::sweep_slivers(const Mesh& mesh, Materials& materials, double least,
     if (std::all_of(parts.begin(), parts.end(),
                     [least](const Part& p) { return p.fraction >= least; }))
       continue;
-    Swap s = swap_of(mesh, materials, c, least);
-    s.volume *= volume(c);
+    const Swap s = swap_of(mesh, materials, volume, c, least);
     if (s.with < 0)
     {
       ++report.kept;

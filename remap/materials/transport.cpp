@@ -11,12 +11,6 @@ using namespace remap;
 
 namespace
 {
-/// Off by more than this, fractions do not add up: what is missing would be
-/// made when they are used.
-constexpr double sum_slack = 1e-12;
-/// Off by more than this, in lengths of the cell, a part is outside.
-constexpr double outside_slack = 1e-9;
-
 /// A field as the schemes know it.
 Field over_slots(const MaterialField& field)
 {
@@ -79,38 +73,6 @@ bool MaterialTransport::fits(const Fields& fields) const
   };
   return std::all_of(fields.of_materials.begin(), fields.of_materials.end(),
                      fit);
-}
-
-bool MaterialTransport::sound(const Materials& m,
-                              std::span<const double> x) const
-{
-  for (std::int32_t c = 0; c < m.num_cells(); ++c)
-    if (m.pure(c) >= _options.number)
-      return false;
-  for (std::size_t r = 0; r < m.mixed().size(); ++r)
-  {
-    const Triple& n = _mesh->cell(m.mixed()[r]);
-    const Triangle t = {point(x, n[0]), point(x, n[1]), point(x, n[2])};
-    const double size = position::longest_edge(t);
-    double sum = 0;
-    std::int32_t last = -1;
-    for (const Part& p : m.parts(static_cast<std::int32_t>(r)))
-    {
-      bool inside = true;
-      for (std::size_t k = 0; k < 3; ++k)
-        inside = inside
-                 and position::depth(t[k], t[(k + 1) % 3], p.centroid)
-                         >= -outside_slack * size * size;
-      if (not(p.fraction > 0 and p.fraction <= 1) or not inside
-          or p.material <= last or p.material >= _options.number)
-        return false;
-      last = p.material;
-      sum += p.fraction;
-    }
-    if (not(std::abs(sum - 1) <= sum_slack))
-      return false;
-  }
-  return true;
 }
 
 std::size_t MaterialTransport::entries() const

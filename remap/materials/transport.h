@@ -38,9 +38,6 @@ public:
 
   /// Do the sizes of a call fit?
   [[nodiscard]] bool fits(const Fields& fields) const;
-  /// Do fractions add up, and are parts in their cells?
-  [[nodiscard]] bool sound(const Materials& materials,
-                           std::span<const double> x) const;
 
   /// A call begins.
   void start(const Fields& fields);
@@ -134,8 +131,7 @@ private:
   template <Geometry G>
   void cut_swept(std::span<const double> x, std::span<const double> y);
   template <Geometry G>
-  void cut_overlaid(std::span<const double> x, std::span<const double> y,
-                    const Overlay& overlay);
+  void cut_overlaid(std::span<const double> x, std::span<const double> y);
   template <Geometry G>
   [[nodiscard]] ByPart by_parts(const Motion& m, bool out,
                                 std::int32_t c) const;

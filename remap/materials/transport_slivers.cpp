@@ -156,7 +156,7 @@ void MaterialTransport::deliver(std::span<const double> volume,
           held_inside({point(y, n[0]), point(y, n[1]), point(y, n[2])},
                       part.centroid + weight * (p.at - part.centroid));
     }
-    const double* from = &_parcel_values[static_cast<std::size_t>(p.values)];
+    const double* from = _parcel_values.data() + p.values;
     for (const MaterialField& field : _fields)
     {
       const auto n = static_cast<std::size_t>(field.components);

@@ -337,7 +337,8 @@ double VolumeTransport::kept(std::int32_t c)
   Polygon<6> p;
   for (const Point& v : from)
     p.push(v);
-  _back.meet(_call.x_new, p, from, t[0], c);
+  // A walk may miss some where the body has moved away from under the cell.
+  _back.meet_everywhere(_call.x_new, p, from, t[0]);
   double sum = 0;
   for (const auto& [d, cuts] : _back.met())
   {

@@ -5,6 +5,7 @@
 #include "remap/geometry/position.h"
 #include "remap/materials/ghosts.h"
 #include "remap/materials/slivers.h"
+#include "remap/materials/sound.h"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +82,8 @@ bool VolumeTransport::outline_moved(std::int32_t f) const
     return true;
   return not _call.facet_volumes.empty()
          and std::abs(_call.facet_volumes[f])
-                 > round_off * square * std::max(p0.x, q0.x);
+                 > round_off * square
+                       * (G == Geometry::plane ? 1 : std::max(p0.x, q0.x));
 }
 
 template <Geometry G>
@@ -355,13 +357,18 @@ Outcome VolumeTransport::carry(std::span<const double> x_old,
       and (facet_volumes.empty()
            or facet_volumes.size() == std::size_t(_mesh->num_facets()))
       and partitions.size() >= materials.mixed().size()
-      and materials.num_cells() == _mesh->num_cells();
+      and materials.num_cells() == _mesh->num_cells()
+      and std::all_of(_options.beyond.begin(), _options.beyond.end(),
+                      [&](std::int32_t m)
+                      { return m >= -1 and m < materials.num_materials(); });
   if (host.max(sizes ? 0.0 : 1.0) > 0)
     return Outcome::wrong_size;
   const bool finite =
       all_finite(x_old) and all_finite(x_new) and all_finite(facet_volumes);
   if (host.max(finite ? 0.0 : 1.0) > 0)
     return Outcome::not_finite;
+  if (host.max(sound(*_mesh, materials, x_old) ? 0.0 : 1.0) > 0)
+    return Outcome::bad_materials;
   _passed.assign(materials.num_materials(), {});
   return _options.geometry == Geometry::plane
              ? run<Geometry::plane>(materials, ledger)

@@ -81,7 +81,8 @@ public:
   /// @param[in,out] materials      ghosts up to date, then too
   /// @param[in]     host           communication
   /// @param[in,out] ledger         grows by what passed the boundary
-  /// @return ok, wrong_size, not_finite, inverted_start, inverted_target (a
+  /// @return ok, wrong_size (or a material beyond that does not exist),
+  ///         not_finite, bad_materials, inverted_start, inverted_target (a
   ///         cell of the zone is not seen wholly from its middle), beyond_halo
   [[nodiscard]] Outcome carry(std::span<const double> x_old,
                               std::span<const double> x_new,

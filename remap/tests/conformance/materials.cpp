@@ -66,7 +66,7 @@ const auto methods = {Method::swept, Method::overlay};
 template <class Call>
 void each_scheme(const Call& call)
 {
-  for (const auto name : names<Schemes>())
+  for (const std::string& name : names<Schemes>())
   {
     INFO(name);
     call(*find<Schemes>(name));

@@ -100,7 +100,7 @@ void check(std::uint64_t seed)
   const fuzz::Laid laid(seed);
   INFO("domain " << seed << " (" << laid.what() << ")");
   const Set domain = exact(laid.domain);
-  Pieces pieces;
+  DomainPieces pieces;
   const auto plane = partial_volumes<Geometry::plane>(
       laid.domain, laid.mesh.cells, laid.mesh.x, &pieces);
   const auto turned = partial_volumes<Geometry::axisymmetric>(

@@ -148,7 +148,7 @@ TEST_CASE("partial volumes: a domain within one cell", "[domain]")
              : std::vector<std::int32_t>{0, 1, 2};
   const Domain domain =
       with_holes(box(0.5, 0.5, 1.5, 1.5), {box(0.75, 0.75, 1, 1.25)});
-  Pieces pieces;
+  DomainPieces pieces;
   const auto laid = partial_volumes<Geometry::plane>(domain, cell, x, &pieces);
   REQUIRE(laid.mixed.size() == 1);
   CHECK(laid.full == 0);
@@ -276,7 +276,7 @@ TEST_CASE("partial volumes: pieces fill the parts, cell by cell", "[domain]")
   const Point centre{0.5, 0.5};
   const Domain domain = with_holes(star(random, centre, 0.2, 0.6, 80),
                                    {star(random, centre, 0.02, 0.18, 30)});
-  Pieces pieces;
+  DomainPieces pieces;
   const auto laid =
       partial_volumes<Geometry::plane>(domain, mesh.cells, mesh.x, &pieces);
   CHECK(std::ranges::is_sorted(pieces.cells));
