@@ -89,8 +89,9 @@ def measured(tool, methods):
         for method in [*methods, "donor_cell"]:
             for n in SQUARES:
                 run(case, case, time, method, n, COURANT)
-    for n in SQUARES[:2]:
-        run("quarters", "quarters", 2, MAIN, n, COURANT)
+    for time in (2, 4):
+        for n in SQUARES[:2]:
+            run("quarters", "quarters", time, MAIN, n, COURANT)
     for method in methods:
         for courant in COURANTS:
             run("Courant number", "vortex", 2, method, SQUARES[1], courant)
