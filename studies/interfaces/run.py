@@ -90,7 +90,7 @@ def measured(tool, methods):
             for n in SQUARES:
                 run(case, case, time, method, n, COURANT)
     for time in (2, 4):
-        for n in SQUARES[:2]:
+        for n in SQUARES:
             run("quarters", "quarters", time, MAIN, n, COURANT)
     for method in methods:
         for courant in COURANTS:
