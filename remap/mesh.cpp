@@ -248,3 +248,18 @@ void Mesh::mark(const MeshInput& in)
     _num_markers = std::max(_num_markers, in.markers[k] + 1);
   }
 }
+
+std::vector<std::int32_t> Mesh::outline() const
+{
+  std::vector<std::uint8_t> complete(num_nodes());
+  for (std::int32_t c = 0; c < _owned_cells; ++c)
+    for (std::int32_t i : _cells[c])
+      complete[i] = 1;
+  std::vector<std::int32_t> out;
+  for (std::int32_t f = 0; f < num_facets(); ++f)
+    if (const auto [a, b] = _facets[f];
+        _facet_cells[f][1] < 0
+        and (complete[a] != 0 or complete[b] != 0 or _markers[f] >= 0))
+      out.push_back(f);
+  return out;
+}

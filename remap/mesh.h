@@ -133,6 +133,11 @@ public:
     return _node_ids;
   }
 
+  /// Facets where the body ends, also those of ghosts: around the nodes of our
+  /// cells all cells are here; elsewhere a facet with one cell is known to be
+  /// the outline by its marker only.
+  [[nodiscard]] std::vector<std::int32_t> outline() const;
+
 private:
   void build_node_cells();
   void build_facets();

@@ -144,8 +144,6 @@ private:
   [[nodiscard]] bool sizes_fit(std::span<const double> x_old,
                                std::span<const double> x_new,
                                const Fields& fields) const;
-  [[nodiscard]] bool fits(const Field& field, std::int32_t num,
-                          int components) const;
   [[nodiscard]] bool some_node_is_massless() const;
   void find_touched(std::span<const double> x_old,
                     std::span<const double> x_new);

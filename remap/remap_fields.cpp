@@ -110,10 +110,9 @@ void Remapper::carry(const Fields& fields, const Host& host)
   entry =
       carry_all(_nodes, fields.nodes, o.nodal_scheme, _node_halo, host, entry);
   if (fields.materials)
-    _materials->carry<G>(
-        _x, _y, _report.overlaid ? &_overlap->of_cells() : nullptr, o.scheme,
-        host, _masses and mixture(fields) ? &_amounts : nullptr,
-        std::span(_book).last(_materials->entries()));
+    _materials->carry<G>(_x, _y, _report.overlaid, o.scheme, host,
+                         _masses and mixture(fields) ? &_amounts : nullptr,
+                         std::span(_book).last(_materials->entries()));
   if (_masses)
     carry_masses<G>(fields, entry, host);
 }

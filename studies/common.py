@@ -112,6 +112,27 @@ PIERCING = {
 }
 
 
+def built(target, where, hint=""):
+    """What a study's own target makes, built beside the solver, as a path."""
+    solver = os.environ.get("MMALE_PROGRAM")
+    if not solver:
+        sys.exit("MMALE_PROGRAM is not set: start studies with ./mmale study NAME")
+    build = Path(solver).resolve().parent.parent
+    words = ["cmake", "--build", str(build), "--target", target]
+    if subprocess.run(words, stdout=subprocess.DEVNULL).returncode:
+        sys.exit(f"{target} does not build{hint}")
+    return str(build / "studies" / where)
+
+
+def output(words):
+    """What a program prints; what it says of a failure ends the study."""
+    words = [str(word) for word in words]
+    run = subprocess.run(words, capture_output=True, text=True)
+    if run.returncode:
+        sys.exit(f"{' '.join(words)}: {run.returncode}\n{run.stderr}")
+    return run.stdout
+
+
 def with_keys(scene, changes):
     """A copy of a scene; changes by dotted key, None takes a key away."""
     out = copy.deepcopy(scene)

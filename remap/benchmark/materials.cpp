@@ -4,8 +4,8 @@
 // of two materials in strips, so that some part in a thousand of the cells is
 // mixed.
 
+#include "remap/benchmark/square.h"
 #include "remap/remap.h"
-#include "remap/tests/meshes.h"
 
 #include <benchmark/benchmark.h>
 
@@ -13,23 +13,8 @@ using namespace remap;
 
 namespace
 {
-constexpr int n = 256;
-
-struct Bench
-{
-  meshes::Data data = meshes::rectangle(n, n, meshes::Diagonal::crossed);
-  Mesh mesh = data.mesh();
-  std::vector<double> to = meshes::shaken(data.x, 0.25 / n, 1);
-
-  static const Bench& get()
-  {
-    static const Bench bench;
-    return bench;
-  }
-};
-
 /// Strips of two materials across the square, with so many borders.
-Materials strips(const Bench& b, int borders)
+Materials strips(const Square& b, int borders)
 {
   const Point normal = {0.8, 0.6};
   const double breadth = 1.4 / (borders + 1);
@@ -67,7 +52,7 @@ Materials strips(const Bench& b, int borders)
 
 void materials(benchmark::State& state, int borders, Method method)
 {
-  const Bench& b = Bench::get();
+  const Square& b = Square::get();
   const bool single = borders < 0;
   Options options{.method = method,
                   .max_loss = 0.999,

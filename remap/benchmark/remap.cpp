@@ -5,7 +5,7 @@
 // memory bandwidth of the same machine in the same run.
 
 #include "remap/remap.h"
-#include "remap/tests/meshes.h"
+#include "remap/benchmark/square.h"
 
 #include <benchmark/benchmark.h>
 
@@ -13,28 +13,12 @@ using namespace remap;
 
 namespace
 {
-constexpr int n = 256;
-
-/// The mesh, built once.
-struct Bench
-{
-  meshes::Data data = meshes::rectangle(n, n, meshes::Diagonal::crossed);
-  Mesh mesh = data.mesh();
-  std::vector<double> to = meshes::shaken(data.x, 0.25 / n, 1);
-
-  static const Bench& get()
-  {
-    static const Bench bench;
-    return bench;
-  }
-};
-
 /// Remap `components` numbers a cell, over swept regions with the fewest
 /// sub-cycles that keep the bounds, or over the overlay.
 void remap_cells(benchmark::State& state, const Scheme& scheme,
                  Method method = Method::swept)
 {
-  const Bench& b = Bench::get();
+  const Square& b = Square::get();
   const auto components = static_cast<int>(state.range(0));
   Remapper remapper(b.mesh, {.method = method,
                              .scheme = scheme,
@@ -84,7 +68,7 @@ void overlay_limited_linear(benchmark::State& state)
 /// the patch.
 void local(benchmark::State& state)
 {
-  const Bench& b = Bench::get();
+  const Square& b = Square::get();
   Remapper remapper(b.mesh, {.max_loss = 0.999,
                              .boundaries = std::vector(4, Boundary::closed)});
   const auto side = std::min(
@@ -118,7 +102,7 @@ void local(benchmark::State& state)
 /// after, and of each region donor, receiver and volume.
 void donor_cell_fields(benchmark::State& state)
 {
-  const Bench& b = Bench::get();
+  const Square& b = Square::get();
   const auto number = static_cast<std::size_t>(state.range(0));
   Remapper remapper(b.mesh, {.scheme = scheme::DonorCell{},
                              .max_loss = 0.999,
@@ -147,7 +131,7 @@ void donor_cell_fields(benchmark::State& state)
 
 void nodal(benchmark::State& state)
 {
-  const Bench& b = Bench::get();
+  const Square& b = Square::get();
   Remapper remapper(b.mesh, {.max_loss = 0.999,
                              .boundaries = std::vector(4, Boundary::closed),
                              .nodal_components = 3});

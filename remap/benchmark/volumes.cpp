@@ -5,9 +5,9 @@
 // quarter of a square, against the number of mixed cells: discs of growing
 // radius, and many of them.
 
+#include "remap/benchmark/square.h"
 #include "remap/interfaces/interfaces.h"
 #include "remap/materials/volume_transport.h"
-#include "remap/tests/meshes.h"
 #include "remap/tests/shapes.h"
 
 #include <benchmark/benchmark.h>
@@ -16,27 +16,12 @@ using namespace remap;
 
 namespace
 {
-constexpr int n = 256;
-
-struct Bench
-{
-  meshes::Data data = meshes::rectangle(n, n, meshes::Diagonal::crossed);
-  Mesh mesh = data.mesh();
-  std::vector<double> to = meshes::shaken(data.x, 0.25 / n, 1);
-
-  static const Bench& get()
-  {
-    static const Bench bench;
-    return bench;
-  }
-};
-
 /// Discs in a row of squares.
 /// @param[in] state arguments: discs along a side; radius in parts of 1000 of
 /// their square
 void carry_volumes(benchmark::State& state)
 {
-  const Bench& b = Bench::get();
+  const Square& b = Square::get();
   const auto side = static_cast<int>(state.range(0));
   const double r = 1e-3 * static_cast<double>(state.range(1)) / side;
   const Materials one = [&]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap/domain/domain.h"
 
+#include "remap/domain/order.h"
+
 #include "remap/domain/orientation.h"
 
 #include <algorithm>
@@ -230,9 +232,11 @@ std::vector<Fault> faults_of(std::span<const Shape> shapes,
     }
   if (not out.empty())
     return out;
-  out = Crossings(rings).find();
-  std::ranges::stable_sort(out, {}, [](const Fault& f)
-                           { return std::pair(f.ring, f.vertex); });
+  const std::vector<Fault> found = Crossings(rings).find();
+  for (const std::size_t i :
+       order_by(found.size(), [&found](std::size_t k)
+                { return std::pair(found[k].ring, found[k].vertex); }))
+    out.push_back(found[i]);
   return out;
 }
 

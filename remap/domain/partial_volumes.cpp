@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap/domain/partial_volumes.h"
 
+#include "remap/domain/order.h"
+
 #include "remap/domain/trapezoids.h"
 #include "remap/geometry/position.h"
 
@@ -331,12 +333,9 @@ private:
   /// The pieces in order of cells.
   void collect(DomainPieces& out) const
   {
-    std::vector<std::size_t> order(_pieces.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [this](std::size_t i)
-                             { return _pieces.cells[i]; });
     out = {};
-    for (const std::size_t i : order)
+    for (const std::size_t i : order_by(_pieces.size(), [this](std::size_t k)
+                                        { return _pieces.cells[k]; }))
     {
       const auto piece = _pieces[i];
       out.points.insert(out.points.end(), piece.begin(), piece.end());

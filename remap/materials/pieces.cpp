@@ -373,13 +373,13 @@ void MaterialTransport::begin()
 /// From cells to slots.
 template <Geometry G>
 void MaterialTransport::open(std::span<const double> x,
-                             std::span<const double> y, const Overlay* overlay,
+                             std::span<const double> y, bool overlaid,
                              const Host& host)
 {
   CellVolumes& cv = *_cv;
   begin();
   _interfaces.reconstruct(x, *_materials, host);
-  if (overlay)
+  if (overlaid)
     cut_overlaid<G>(x, y);
   else
     cut_swept<G>(x, y);
@@ -394,9 +394,6 @@ void MaterialTransport::open(std::span<const double> x,
 
 template void MaterialTransport::open<Geometry::plane>(std::span<const double>,
                                                        std::span<const double>,
-                                                       const Overlay*,
-                                                       const Host&);
-template void
-MaterialTransport::open<Geometry::axisymmetric>(std::span<const double>,
-                                                std::span<const double>,
-                                                const Overlay*, const Host&);
+                                                       bool, const Host&);
+template void MaterialTransport::open<Geometry::axisymmetric>(
+    std::span<const double>, std::span<const double>, bool, const Host&);

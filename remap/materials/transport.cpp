@@ -43,36 +43,21 @@ MaterialTransport::MaterialTransport(const Mesh& mesh, CellVolumes& cells,
 
 bool MaterialTransport::fits(const Fields& fields) const
 {
-  const bool any_open =
-      std::find(_boundaries.begin(), _boundaries.end(), Boundary::open)
-      != _boundaries.end();
   const Materials& m = *fields.materials;
   if (m.num_cells() != _mesh->num_cells()
       or m.num_materials() != _options.number
-      or (any_open and _options.inflow.size() != _boundaries.size()))
+      or (any_open(_boundaries)
+          and _options.inflow.size() != _boundaries.size()))
     return false;
   const auto slots = static_cast<std::size_t>(m.num_slots());
-  const auto fit = [&](const MaterialField& field)
-  {
-    const auto n = static_cast<std::size_t>(field.components);
-    return field.components >= 1 and field.components <= _options.components
-           and field.group >= 1 and field.group <= largest_group
-           and field.components % field.group == 0
-           and field.values.size() == n * slots
-           and (field.weights.empty()
-                or field.weights.size()
-                       == static_cast<std::size_t>(field.group))
-           and (field.carriers.empty()
-                or field.carriers.size()
-                       == static_cast<std::size_t>(_options.number))
-           and (field.least.empty() or field.least.size() == n)
-           and std::equal(field.least.begin(), field.least.end(),
-                          field.most.begin(), field.most.end(),
-                          [](double a, double b) { return a <= b; })
-           and (not any_open or field.inflow.size() == n * _boundaries.size());
-  };
-  return std::all_of(fields.of_materials.begin(), fields.of_materials.end(),
-                     fit);
+  const auto number = static_cast<std::size_t>(_options.number);
+  return std::all_of(
+      fields.of_materials.begin(), fields.of_materials.end(),
+      [&](const MaterialField& field)
+      {
+        return remap::fits(field, slots, _options.components, _boundaries)
+               and (field.carriers.empty() or field.carriers.size() == number);
+      });
 }
 
 std::size_t MaterialTransport::entries() const
@@ -158,11 +143,11 @@ void MaterialTransport::widen_fields()
 
 template <Geometry G>
 void MaterialTransport::carry(std::span<const double> x,
-                              std::span<const double> y, const Overlay* overlay,
+                              std::span<const double> y, bool overlaid,
                               const Scheme& scheme, const Host& host,
                               Amounts* amounts, std::span<Exchange> book)
 {
-  open<G>(x, y, overlay, host);
+  open<G>(x, y, overlaid, host);
   widen_fields();
   book_volumes(book);
   const Halo halo = [this, &host](std::span<double> values, int block)
@@ -269,9 +254,11 @@ double MaterialTransport::mixture(std::int32_t c) const
   return rho;
 }
 
-template void MaterialTransport::carry<Geometry::plane>(
-    std::span<const double>, std::span<const double>, const Overlay*,
-    const Scheme&, const Host&, Amounts*, std::span<Exchange>);
+template void MaterialTransport::carry<Geometry::plane>(std::span<const double>,
+                                                        std::span<const double>,
+                                                        bool, const Scheme&,
+                                                        const Host&, Amounts*,
+                                                        std::span<Exchange>);
 template void MaterialTransport::carry<Geometry::axisymmetric>(
-    std::span<const double>, std::span<const double>, const Overlay*,
-    const Scheme&, const Host&, Amounts*, std::span<Exchange>);
+    std::span<const double>, std::span<const double>, bool, const Scheme&,
+    const Host&, Amounts*, std::span<Exchange>);

@@ -46,12 +46,12 @@ public:
 
   /// One sub-cycle from x to y, after all that looks at cells.
   ///
-  /// @param[in]  overlay that made the pieces, or null: they are swept
+  /// @param[in]  overlaid did the overlay make the pieces? Else they are swept
   /// @param[out] amounts what the cells' pieces take of the density, if wanted
   /// @param[in,out] book see `entries`
   template <Geometry G>
   void carry(std::span<const double> x, std::span<const double> y,
-             const Overlay* overlay, const Scheme& scheme, const Host& host,
+             bool overlaid, const Scheme& scheme, const Host& host,
              Amounts* amounts, std::span<Exchange> book);
 
   /// Density of a cell as a mixture.
@@ -126,8 +126,8 @@ private:
   // pieces.cpp
   void begin();
   template <Geometry G>
-  void open(std::span<const double> x, std::span<const double> y,
-            const Overlay* overlay, const Host& host);
+  void open(std::span<const double> x, std::span<const double> y, bool overlaid,
+            const Host& host);
   template <Geometry G>
   void cut_swept(std::span<const double> x, std::span<const double> y);
   template <Geometry G>

@@ -60,24 +60,12 @@ Reach::Reach(const Polygon<6>& p, const Triangle& nodes) : polygon(&p)
   }
 }
 
-CellWalk::CellWalk(const Mesh& mesh) : _mesh(&mesh)
+CellWalk::CellWalk(const Mesh& mesh) : _mesh(&mesh), _outline(mesh.outline())
 {
   _seen.assign(mesh.num_cells(), 0);
-  // Around the nodes of our cells all cells are here. Elsewhere a facet with
-  // one cell is known to be the outline by its marker only.
-  std::vector<std::uint8_t> complete(mesh.num_nodes());
-  for (std::int32_t c = 0; c < mesh.owned_cells(); ++c)
-    for (std::int32_t i : mesh.cell(c))
-      complete[i] = 1;
   _is_outline.assign(mesh.num_facets(), 0);
-  for (std::int32_t f = 0; f < mesh.num_facets(); ++f)
-    if (const auto [a, b] = mesh.facet(f);
-        mesh.facet_cells(f)[1] < 0
-        and (complete[a] != 0 or complete[b] != 0 or mesh.marker(f) >= 0))
-    {
-      _is_outline[f] = 1;
-      _outline.push_back(f);
-    }
+  for (std::int32_t f : _outline)
+    _is_outline[f] = 1;
 }
 
 std::int32_t CellWalk::locate(std::span<const double> x, std::int32_t from,

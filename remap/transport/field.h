@@ -3,6 +3,7 @@
 // What travels, and the book of what passed the boundary.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -104,6 +105,35 @@ enum class Boundary
   free_surface, ///< beyond is void: gained volume takes the volume's own value
   open,         ///< gained volume takes the inflow, lost volume leaves
 };
+
+/// Does material come in with a given state somewhere?
+inline bool any_open(std::span<const Boundary> kinds)
+{
+  return std::find(kinds.begin(), kinds.end(), Boundary::open) != kinds.end();
+}
+
+/// Does a field over so many volumes fit: its lengths, group and range?
+/// @param[in] components of the widest field there is room for
+/// @param[in] boundaries by marker; if one is open, a field brings what flows
+/// in
+template <class F>
+[[nodiscard]] bool fits(const F& field, std::size_t num, int components,
+                        std::span<const Boundary> boundaries)
+{
+  if (field.components < 1 or field.components > components or field.group < 1
+      or field.group > largest_group or field.components % field.group != 0)
+    return false;
+  const auto n = static_cast<std::size_t>(field.components);
+  return field.values.size() == n * num
+         and (field.weights.empty()
+              or field.weights.size() == static_cast<std::size_t>(field.group))
+         and (field.least.empty() or field.least.size() == n)
+         and std::equal(field.least.begin(), field.least.end(),
+                        field.most.begin(), field.most.end(),
+                        [](double a, double b) { return a <= b; })
+         and (not any_open(boundaries)
+              or field.inflow.size() == n * boundaries.size());
+}
 
 /// Ways over the boundary. What comes in counts positive, out negative.
 enum class Way

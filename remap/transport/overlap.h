@@ -39,8 +39,6 @@ public:
 
   /// Global number of the cell that made the last call fail, or -1.
   [[nodiscard]] std::int64_t worst_cell() const { return _worst; }
-  /// Of the cells, of the last call.
-  [[nodiscard]] const Overlay& of_cells() const { return _cells; }
 
 private:
   const Mesh* _mesh;

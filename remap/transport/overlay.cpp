@@ -21,7 +21,7 @@ constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 constexpr int max_steps = 2000;
 } // namespace
 
-Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh)
+Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh), _outline(mesh.outline())
 {
   const auto n = static_cast<std::size_t>(mesh.num_cells());
   _beside.resize(n);
@@ -32,21 +32,9 @@ Overlay::Overlay(const Mesh& mesh) : _mesh(&mesh)
       const std::int32_t other = left == c ? right : left;
       _beside[c][k] = other < 0 ? mesh.num_cells() : other;
     }
-  // Around the nodes of our cells all cells are here. Elsewhere a facet with
-  // one cell is known to be the outline by its marker only.
-  std::vector<std::uint8_t> complete(mesh.num_nodes());
-  for (std::int32_t c = 0; c < mesh.owned_cells(); ++c)
-    for (std::int32_t i : mesh.cell(c))
-      complete[i] = 1;
   _is_outline.assign(mesh.num_facets(), 0);
-  for (std::int32_t f = 0; f < mesh.num_facets(); ++f)
-    if (const auto [a, b] = mesh.facet(f);
-        mesh.facet_cells(f)[1] < 0
-        and (complete[a] != 0 or complete[b] != 0 or mesh.marker(f) >= 0))
-    {
-      _is_outline[f] = 1;
-      _outline.push_back(f);
-    }
+  for (std::int32_t f : _outline)
+    _is_outline[f] = 1;
   _seen.assign(n + 1, never);
   _slot.assign(n, -1);
   _queue.resize(n + 1);

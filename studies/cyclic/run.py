@@ -6,8 +6,6 @@ With --draw the chart is drawn anew from results.csv.
 
 import csv
 import io
-import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -44,29 +42,19 @@ PORTAGE = {
 
 def program():
     """The cases of the remap library, built beside the solver."""
-    solver = os.environ.get("MMALE_PROGRAM")
-    if not solver:
-        sys.exit("MMALE_PROGRAM is not set: start studies with ./mmale study NAME")
-    build = Path(solver).resolve().parent.parent
-    words = ["cmake", "--build", str(build), "--target", "remap_cases"]
-    if subprocess.run(words, stdout=subprocess.DEVNULL).returncode:
-        sys.exit("remap_cases does not build")
-    return str(build / "studies" / "cyclic" / "program" / "remap_cases")
+    return common.built("remap_cases", "cyclic/program/remap_cases")
 
 
 def cases(words, columns):
     """The rows that the program prints for some words."""
-    run = subprocess.run(words, capture_output=True, text=True)
-    if run.returncode:
-        sys.exit(f"{' '.join(words)}: {run.returncode}\n{run.stderr}")
-    rows = [dict(zip(columns, row)) for row in csv.reader(io.StringIO(run.stdout))]
+    text = common.output(words)
+    rows = [dict(zip(columns, row)) for row in csv.reader(io.StringIO(text))]
     print(" ".join(words[1:]), flush=True)
     return rows
 
 
 def scheme_names(program):
-    run = subprocess.run([program, "schemes"], capture_output=True, text=True)
-    return run.stdout.split()
+    return common.output([program, "schemes"]).split()
 
 
 def draw(rows):

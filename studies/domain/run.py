@@ -3,7 +3,6 @@
 beside counting points, on the drawing of demos/logo_clip."""
 
 import csv
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -19,14 +18,9 @@ NONE = 1e-17  # where the chart puts errors of none
 
 def program():
     """The cases, built beside the solver."""
-    solver = os.environ.get("MMALE_PROGRAM")
-    if not solver:
-        sys.exit("MMALE_PROGRAM is not set: start studies with ./mmale study NAME")
-    build = Path(solver).resolve().parent.parent
-    words = ["cmake", "--build", str(build), "--target", "domain_cases"]
-    if subprocess.run(words, stdout=subprocess.DEVNULL).returncode:
-        sys.exit("domain_cases does not build; it needs CGAL (libcgal-dev)")
-    return str(build / "studies" / "domain" / "program" / "domain_cases")
+    return common.built(
+        "domain_cases", "domain/program/domain_cases", "; it needs CGAL (libcgal-dev)"
+    )
 
 
 def measure():

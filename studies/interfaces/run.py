@@ -8,8 +8,6 @@ need the program and stay as they are.
 
 import csv
 import io
-import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -55,27 +53,13 @@ COLOURS = [*common.COLOURS, "#888888", "#444444"]
 
 def program():
     """The cases of this study, built beside the solver."""
-    solver = os.environ.get("MMALE_PROGRAM")
-    if not solver:
-        sys.exit("MMALE_PROGRAM is not set: start studies with ./mmale study NAME")
-    build = Path(solver).resolve().parent.parent
-    words = ["cmake", "--build", str(build), "--target", "interface_cases"]
-    if subprocess.run(words, stdout=subprocess.DEVNULL).returncode:
-        sys.exit("interface_cases does not build")
-    return str(build / "studies" / "interfaces" / "program" / "interface_cases")
-
-
-def output(words):
-    run = subprocess.run([str(w) for w in words], capture_output=True, text=True)
-    if run.returncode:
-        sys.exit(f"{' '.join(map(str, words))}: {run.returncode}\n{run.stderr}")
-    return run.stdout
+    return common.built("interface_cases", "interfaces/program/interface_cases")
 
 
 def cases(kind, time, words):
     """The rows that the program prints for some words."""
     print(" ".join(map(str, words[1:])), flush=True)
-    rows = csv.reader(io.StringIO(output(words)))
+    rows = csv.reader(io.StringIO(common.output(words)))
     return [{"kind": kind, "T": time, **dict(zip(COLUMNS, row))} for row in rows]
 
 
@@ -190,7 +174,7 @@ def picture(tool, name, case, time, n):
     for j, (_, method, text) in enumerate(rows):
         words = [tool, "draw", case, time, method, n, COURANT]
         for ax, (when, (values, corners)) in zip(
-            axes[:, j], polygons(output(words)).items()
+            axes[:, j], polygons(common.output(words)).items()
         ):
             if method == "donor_cell":
                 colours = [blue(v) for v in values]
@@ -223,7 +207,7 @@ def main():
     if sys.argv[1:] == ["--draw"]:
         return draw(common.read_table(HERE))
     tool = program()
-    methods = output([tool, "methods"]).split()
+    methods = common.output([tool, "methods"]).split()
     rows = measured(tool, methods)
     common.write_table(HERE, rows)
     draw(rows)

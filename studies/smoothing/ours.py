@@ -2,11 +2,8 @@
 """The library's smoothers, through the C functions of driver/driver.cpp."""
 
 import ctypes
-import os
-import subprocess
-import sys
-from pathlib import Path
 
+import common
 import numpy as np
 
 _double = ctypes.POINTER(ctypes.c_double)
@@ -15,14 +12,8 @@ _int = ctypes.POINTER(ctypes.c_int)
 
 def build():
     """The driver, built beside the solver."""
-    program = os.environ.get("MMALE_PROGRAM")
-    if not program:
-        sys.exit("MMALE_PROGRAM is not set: start studies with ./mmale study NAME")
-    folder = Path(program).resolve().parent.parent
-    words = ["cmake", "--build", str(folder), "--target", "smoothing_driver"]
-    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
-    at = folder / "studies" / "smoothing" / "driver" / "libsmoothing_driver.so"
-    return ctypes.CDLL(str(at))
+    where = "smoothing/driver/libsmoothing_driver.so"
+    return ctypes.CDLL(common.built("smoothing_driver", where))
 
 
 class Ours:

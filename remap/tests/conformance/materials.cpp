@@ -59,6 +59,18 @@ double largest_change(const std::vector<double>& a,
   return out;
 }
 
+/// So many remaps between a scene's two meshes, with one field; it starts at x.
+void there_and_back(Remapper& remapper, Scene& s, const MaterialField& field,
+                    int remaps, Ledger& ledger)
+{
+  for (int k = 0; k < remaps; ++k)
+    REQUIRE(
+        remapper.remap(k % 2 == 0 ? s.x : s.y, k % 2 == 0 ? s.y : s.x,
+                       {.materials = &s.materials, .of_materials = {&field, 1}},
+                       {}, ledger)
+        == Outcome::ok);
+}
+
 const auto geometries = {Geometry::plane, Geometry::axisymmetric};
 const auto methods = {Method::swept, Method::overlay};
 
@@ -90,12 +102,7 @@ TEST_CASE("materials: volumes of each, and what they carry, are conserved",
         Remapper remapper(s.mesh, s.options(method, scheme));
         const MaterialField field{.values = rho};
         Ledger ledger;
-        for (int k = 0; k < 6; ++k)
-          REQUIRE(remapper.remap(
-                      k % 2 == 0 ? s.x : s.y, k % 2 == 0 ? s.y : s.x,
-                      {.materials = &s.materials, .of_materials = {&field, 1}},
-                      {}, ledger)
-                  == Outcome::ok);
+        there_and_back(remapper, s, field, 6, ledger);
         CHECK(rho.size() == std::size_t(s.materials.num_slots()));
         CHECK(filled::unsound(s.materials) < 1e-14);
         CHECK(largest_change(volumes,
@@ -121,12 +128,7 @@ TEST_CASE("materials: uniform stays uniform in each, whatever is beside it",
         Remapper remapper(s.mesh, s.options(method, scheme));
         const MaterialField field{.values = rho};
         Ledger ledger;
-        for (int k = 0; k < 10; ++k)
-          REQUIRE(remapper.remap(
-                      k % 2 == 0 ? s.x : s.y, k % 2 == 0 ? s.y : s.x,
-                      {.materials = &s.materials, .of_materials = {&field, 1}},
-                      {}, ledger)
-                  == Outcome::ok);
+        there_and_back(remapper, s, field, 10, ledger);
         double worst = 0;
         filled::each_slot(s.mesh, g, s.x, s.materials,
                           [&](std::int32_t slot, int k, double, Point)
@@ -166,12 +168,7 @@ TEST_CASE("materials: no value leaves what its material held",
             std::holds_alternative<scheme::SmoothExtrema>(scheme);
         const MaterialField field{.values = u, .least = least, .most = most};
         Ledger ledger;
-        for (int k = 0; k < 10; ++k)
-          REQUIRE(remapper.remap(
-                      k % 2 == 0 ? s.x : s.y, k % 2 == 0 ? s.y : s.x,
-                      {.materials = &s.materials, .of_materials = {&field, 1}},
-                      {}, ledger)
-                  == Outcome::ok);
+        there_and_back(remapper, s, field, 10, ledger);
         double worst = 0;
         filled::each_slot(s.mesh, g, s.x, s.materials,
                           [&](std::int32_t slot, int k, double, Point)
@@ -195,12 +192,7 @@ TEST_CASE("materials: fields linear in each stay so", "[remap][materials]")
   Remapper remapper(s.mesh, s.options(method, scheme::Linear{}));
   const MaterialField field{.values = u};
   Ledger ledger;
-  for (int k = 0; k < 4; ++k)
-    REQUIRE(
-        remapper.remap(k % 2 == 0 ? s.x : s.y, k % 2 == 0 ? s.y : s.x,
-                       {.materials = &s.materials, .of_materials = {&field, 1}},
-                       {}, ledger)
-        == Outcome::ok);
+  there_and_back(remapper, s, field, 4, ledger);
   double worst = 0;
   int n_bad = 0;
   filled::each_slot(s.mesh, g, s.x, s.materials,

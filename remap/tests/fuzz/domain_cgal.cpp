@@ -8,10 +8,8 @@
 #include "remap/domain/cgal/clean.h"
 #include "remap/domain/partial_volumes.h"
 #include "remap/tests/fuzz/domains.h"
+#include "remap/tests/fuzz/exact_domain.h"
 
-#include <CGAL/Boolean_set_operations_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polygon_set_2.h>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_message.hpp>
 #include <catch2/catch_test_macros.hpp>
@@ -25,34 +23,13 @@ using Catch::Approx;
 
 namespace
 {
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using exact_domain::exact;
+using exact_domain::Kernel;
+using exact_domain::Polygon;
+using exact_domain::Set;
 using Number = Kernel::FT;
-using Polygon = CGAL::Polygon_2<Kernel>;
 using Holed = CGAL::Polygon_with_holes_2<Kernel>;
-using Set = CGAL::Polygon_set_2<Kernel>;
 constexpr double eps = std::numeric_limits<double>::epsilon();
-
-Polygon exact(std::span<const Point> ring)
-{
-  Polygon out;
-  for (const Point p : ring)
-    out.push_back({p.x, p.y});
-  return out;
-}
-
-/// Rings that do not cross bound what an odd number of them runs around.
-Set exact(const Domain& domain)
-{
-  Set out;
-  for (const Ring& ring : domain.rings())
-  {
-    Polygon p = exact(ring);
-    if (p.is_clockwise_oriented())
-      p.reverse_orientation();
-    out.symmetric_difference(p);
-  }
-  return out;
-}
 
 /// Volume and first moments, twice: in the plane and per radian.
 struct Exact

@@ -6,13 +6,11 @@
 
 #include "remap/domain/drawing.h"
 #include "remap/domain/partial_volumes.h"
+#include "remap/tests/fuzz/exact_domain.h"
 
 #include <CGAL/Arr_overlay_2.h>
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
-#include <CGAL/Boolean_set_operations_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polygon_set_2.h>
 #include <CGAL/version_macros.h>
 #include <algorithm>
 #include <cmath>
@@ -31,9 +29,10 @@ using namespace remap;
 
 namespace
 {
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Polygon = CGAL::Polygon_2<Kernel>;
-using Set = CGAL::Polygon_set_2<Kernel>;
+using exact_domain::exact;
+using exact_domain::Kernel;
+using exact_domain::Polygon;
+using exact_domain::Set;
 using Areas = std::vector<double>;
 
 /// Processor time of this process [s].
@@ -84,27 +83,6 @@ struct Mesh
             point(x, cells[3 * c + 2])};
   }
 };
-
-Polygon exact(std::span<const Point> ring)
-{
-  Polygon out;
-  for (const Point p : ring)
-    out.push_back({p.x, p.y});
-  return out;
-}
-
-Set exact(const Domain& domain)
-{
-  Set out;
-  for (const Ring& ring : domain.rings())
-  {
-    Polygon p = exact(ring);
-    if (p.is_clockwise_oriented())
-      p.reverse_orientation();
-    out.symmetric_difference(p);
-  }
-  return out;
-}
 
 double area(const Set& set)
 {
