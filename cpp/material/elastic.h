@@ -11,9 +11,7 @@ struct Elastic
 {
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "elastic";
-  static constexpr bool symmetric = true, yields = false;
-  static constexpr std::array<std::string_view, 0> no_history{};
-  static constexpr std::span<const std::string_view> history = no_history;
+  static constexpr bool symmetric = true, yields = false, fluid = false;
 
   double E = required;       ///< Young's modulus [Pa]
   double nu = required;      ///< Poisson ratio [-]
@@ -26,21 +24,28 @@ struct Elastic
        "mass density"},
   }};
 
-  double shear_modulus() const { return E / (2 * (1 + nu)); }
-  double bulk_modulus() const { return E / (3 * (1 - 2 * nu)); }
+  std::vector<HistoryField> history() const { return {}; }
+  void begin(const Start&, std::span<double>) const {}
   std::vector<std::string> complaints() const { return {}; }
-
-  double admit(Eigen::Ref<Voigt>, std::span<const double>) const { return 0; }
-
-  Outcome update(const Increment& step, TangentKind, std::span<double>,
-                 Response& answer) const
+  double admit(Eigen::Ref<Voigt>, double&, std::span<double>) const
   {
-    const double K = bulk_modulus();
+    return 0;
+  }
+
+  Moduli moduli(const Point&, double) const
+  {
+    return {E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu))};
+  }
+
+  Outcome update(const Point& start, const Strain& step, TangentKind,
+                 std::span<double>, Response& answer) const
+  {
+    const auto [G, K] = moduli(start, step.dt);
     answer = {};
-    answer.ds_de = shear_stiffness(shear_modulus());
-    answer.s = step.s + answer.ds_de * step.de;
-    answer.theta = -(step.p - step.p_n) / K;
-    answer.dtheta_dp = -1 / K;
+    answer.ds_de = shear_stiffness(G);
+    answer.s = start.s + answer.ds_de * step.de;
+    answer.p = start.p - K * step.theta;
+    answer.dp_dtheta = -K;
     return Outcome::ok;
   }
 };

@@ -14,8 +14,7 @@ struct J2
 {
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "j2";
-  static constexpr bool symmetric = true, yields = true;
-  static constexpr std::array<std::string_view, 1> history{"plastic_strain"};
+  static constexpr bool symmetric = true, yields = true, fluid = false;
 
   double E = required;            ///< Young's modulus [Pa]
   double nu = required;           ///< Poisson ratio [-]
@@ -33,9 +32,14 @@ struct J2
       {"density", "kg/m3", &J2::density, scene::at_least(0), "mass density"},
   }};
 
-  double shear_modulus() const { return E / (2 * (1 + nu)); }
-  double bulk_modulus() const { return E / (3 * (1 - 2 * nu)); }
+  std::vector<HistoryField> history() const { return {{"plastic_strain"}}; }
+  void begin(const Start&, std::span<double> q) const { q[0] = 0; }
   std::vector<std::string> complaints() const { return {}; }
+
+  Moduli moduli(const Point&, double) const
+  {
+    return {E / (2 * (1 + nu)), E / (3 * (1 - 2 * nu))};
+  }
 
   /// The bubble's plastic flow is capped: a step that shears a cell by more
   /// than ten times its yield strain has nothing left to stabilise.
@@ -48,7 +52,7 @@ struct J2
   }
 
   /// Radially back to the yield surface.
-  double admit(Eigen::Ref<Voigt> s, std::span<const double> q) const
+  double admit(Eigen::Ref<Voigt> s, double&, std::span<double> q) const
   {
     const double size = norm(s), radius = yield_radius(q[0]);
     if (not(size > radius))
@@ -57,17 +61,16 @@ struct J2
     return 1 - radius / size;
   }
 
-  Outcome update(const Increment& step, TangentKind kind, std::span<double> q,
-                 Response& answer) const
+  Outcome update(const Point& start, const Strain& step, TangentKind kind,
+                 std::span<double> q, Response& answer) const
   {
-    const double G = shear_modulus();
-    const double K = bulk_modulus();
+    const auto [G, K] = moduli(start, step.dt);
     const Voigt2 D = shear_stiffness(G);
     answer = {};
-    answer.theta = -(step.p - step.p_n) / K;
-    answer.dtheta_dp = -1 / K;
+    answer.p = start.p - K * step.theta;
+    answer.dp_dtheta = -K;
     answer.ds_de = D;
-    answer.s = step.s + D * step.de;
+    answer.s = start.s + D * step.de;
 
     const double trial = norm(answer.s);
     const double radius = yield_radius(q[0]);
@@ -84,7 +87,7 @@ struct J2
     // step has before the point
     const double size = yield_radius(q[0]);
     answer.s = size * n;
-    const double keep = kind == TangentKind::consistent ? size / trial : 1;
+    const double keep = kind == TangentKind::continuum ? 1 : size / trial;
     answer.ds_de = keep * D + ((1 - 1 / h) - keep) * n * dtrial_de.transpose();
 
     const double flow = trial / size - 1;

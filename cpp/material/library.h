@@ -4,7 +4,6 @@
 #include "elastic.h"
 #include "j2.h"
 #include "scene/parameter.h"
-#include <map>
 #include <variant>
 
 namespace mmale::material
@@ -16,9 +15,12 @@ using AnyLaw = std::variant<Elastic, J2>;
 /// Names, parameters and ranges of all laws, for the scene reader.
 std::vector<scene::LawInfo> law_infos();
 
-/// A law filled from a scene that has no complaints left.
+/// A law filled from a scene that has no complaints left: defaults, then the
+/// parameter set if one is named, then what is written.
 ///
-/// @throws std::invalid_argument for an unknown law or parameter
-AnyLaw make_law(const std::string& name,
-                const std::map<std::string, double>& parameters);
+/// @throws std::invalid_argument for an unknown law, set or parameter
+AnyLaw make_law(const scene::Material& material);
+
+/// Numbers of a point's history.
+int num_history(const AnyLaw& law);
 } // namespace mmale::material

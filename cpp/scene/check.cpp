@@ -130,7 +130,7 @@ public:
       enter(key.name + "." + std::to_string(i), tables[i]);
   }
 
-  void rest(const std::string&, std::map<std::string, double>&) {}
+  void rest(const std::string&, Material&) {}
 
   template <class F>
   void only_with(const std::string&, const std::string& chosen,

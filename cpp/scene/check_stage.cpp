@@ -165,38 +165,106 @@ void check_motion(const Scene& scene, Complaints& out)
   }
 }
 
-void check_parameters(const Material& material, const LawInfo& law,
-                      const std::string& key, Complaints& out)
+/// Is this number, text or list of a material there under this name?
+template <class Table>
+bool given(const Table& table, const std::string& name)
 {
-  std::vector<std::string> known;
-  for (const ParameterInfo& p : law.parameters)
-  {
-    known.push_back(p.name);
-    const std::string unit = p.unit.empty() or p.unit == "-" ? "" : p.unit;
-    const auto given = material.parameters.find(p.name);
-    if (given == material.parameters.end() or std::isnan(given->second))
-    {
-      if (p.is_required())
-        out.push_back({key + "." + p.name,
-                       missing(p.sentence, p.unit, p.range.words()) + " (law "
-                           + law.name + ")",
-                       {}});
-    }
-    else if (not p.range.holds(given->second))
-      out.push_back(
-          {key + "." + p.name,
-           std::format("must be {}{}, is {}",
-                       p.range.words().empty() ? "finite" : p.range.words(),
-                       unit.empty() ? "" : " " + unit, given->second),
-           {}});
-  }
-  known.push_back("law");
-  for (const auto& [name, x] : material.parameters)
+  return table.contains(name);
+}
+
+/// The known material that a scene names, or none.
+const SetInfo* check_set(const Material& material, const LawInfo& law,
+                         const std::string& key, Complaints& out)
+{
+  const auto text = material.texts.find(law.set_key);
+  if (law.set_key.empty() or text == material.texts.end())
+    return nullptr;
+  const auto set = std::ranges::find(law.sets, text->second, &SetInfo::name);
+  if (set != law.sets.end())
+    return &*set;
+  std::vector<std::string> names;
+  for (const SetInfo& s : law.sets)
+    names.push_back(s.name);
+  out.push_back(
+      {key + "." + law.set_key,
+       "unknown '" + text->second + "', " + suggestion(text->second, names),
+       {}});
+  return nullptr;
+}
+
+/// Complain of a name that the law does not have as this kind of value.
+void check_kind(const auto& table, const std::vector<std::string>& wanted,
+                const std::vector<std::string>& known, const char* kind,
+                const LawInfo& law, const std::string& key, Complaints& out)
+{
+  for (const auto& [name, value] : table)
     if (std::ranges::find(known, name) == known.end())
       out.push_back(
           {key + "." + name,
            "unknown for law '" + law.name + "', " + suggestion(name, known),
            {}});
+    else if (std::ranges::find(wanted, name) == wanted.end())
+      out.push_back({key + "." + name, std::string("must not be ") + kind, {}});
+}
+
+void check_numbers(const Material& material, const LawInfo& law,
+                   const SetInfo* set, const std::string& key, Complaints& out)
+{
+  for (const ParameterInfo& p : law.parameters)
+  {
+    const std::string unit = p.unit.empty() or p.unit == "-" ? "" : p.unit;
+    const auto written = material.parameters.find(p.name);
+    if (written == material.parameters.end() or std::isnan(written->second))
+    {
+      const bool wrong_kind =
+          given(material.texts, p.name) or given(material.lists, p.name);
+      if (p.is_required() and not wrong_kind
+          and not(set and given(set->values, p.name)))
+        out.push_back({key + "." + p.name,
+                       missing(p.sentence, p.unit, p.range.words()) + " (law "
+                           + law.name + ")",
+                       {}});
+    }
+    else if (not p.range.holds(written->second))
+      out.push_back(
+          {key + "." + p.name,
+           std::format("must be {}{}, is {}",
+                       p.range.words().empty() ? "finite" : p.range.words(),
+                       unit.empty() ? "" : " " + unit, written->second),
+           {}});
+  }
+}
+
+void check_parameters(const Material& material, const LawInfo& law,
+                      const std::string& key, Complaints& out)
+{
+  const std::size_t before = out.size();
+  const SetInfo* set = check_set(material, law, key, out);
+  check_numbers(material, law, set, key, out);
+  for (const TextInfo& t : law.texts)
+    if (t.needed and not given(material.texts, t.name))
+      out.push_back({key + "." + t.name,
+                     missing(t.sentence, "", "") + " (law " + law.name + ")",
+                     {}});
+  std::vector<std::string> numbers, texts, lists;
+  for (const ParameterInfo& p : law.parameters)
+    numbers.push_back(p.name);
+  for (const TextInfo& t : law.texts)
+    texts.push_back(t.name);
+  if (not law.set_key.empty())
+    texts.push_back(law.set_key);
+  for (const ListInfo& l : law.lists)
+    lists.push_back(l.name);
+  std::vector<std::string> known = numbers;
+  known.insert(known.end(), texts.begin(), texts.end());
+  known.insert(known.end(), lists.begin(), lists.end());
+  known.push_back("law");
+  check_kind(material.parameters, numbers, known, "a number", law, key, out);
+  check_kind(material.texts, texts, known, "a text", law, key, out);
+  check_kind(material.lists, lists, known, "a list", law, key, out);
+  if (out.size() == before and law.complaints)
+    for (const std::string& complaint : law.complaints(material))
+      out.push_back({key, complaint, {}});
 }
 } // namespace
 

@@ -108,10 +108,14 @@ public:
       fill(_json[key.name].emplace_back(Json::object()), table);
   }
 
-  void rest(const std::string&, std::map<std::string, double>& numbers)
+  void rest(const std::string&, Material& m)
   {
-    for (const auto& [name, x] : numbers)
+    for (const auto& [name, text] : m.texts)
+      _json[name] = text;
+    for (const auto& [name, x] : m.parameters)
       _json[name] = x;
+    for (const auto& [name, list] : m.lists)
+      _json[name] = list;
   }
 
   template <class F>

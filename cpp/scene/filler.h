@@ -244,7 +244,7 @@ public:
   }
 
   /// Every key that is not named otherwise; call it last.
-  void rest(const std::string&, std::map<std::string, double>& numbers)
+  void rest(const std::string&, Material& material)
   {
     _takes_rest = true;
     for (const auto& [name, entry] : _node.entries)
@@ -254,8 +254,12 @@ public:
       const std::string path = under(_path, name);
       _record.places[path] = entry.place;
       double x = 0;
-      if (number(entry, path, x))
-        numbers[name] = x;
+      if (entry.kind == Node::Kind::text)
+        material.texts[name] = entry.text;
+      else if (entry.kind == Node::Kind::list)
+        numbers(entry, path, material.lists[name]);
+      else if (number(entry, path, x))
+        material.parameters[name] = x;
     }
   }
 
@@ -336,6 +340,14 @@ private:
     }
     i = static_cast<int>(node.number);
     return true;
+  }
+
+  void numbers(const Node& node, const std::string& path,
+               std::vector<double>& list)
+  {
+    for (const Node& item : node.items)
+      if (not number(item, path, list.emplace_back()))
+        return;
   }
 
   bool word(const Node& node, const std::string& path, std::string& text)

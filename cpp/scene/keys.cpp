@@ -121,7 +121,7 @@ public:
   }
 
   // The laws' numbers follow at the end of the reference.
-  void rest(const std::string&, std::map<std::string, double>&) {}
+  void rest(const std::string&, Material&) {}
 
   template <class F>
   void only_with(const std::string& selector, const std::string&,
@@ -157,6 +157,37 @@ private:
 };
 } // namespace
 
+namespace
+{
+/// What a law takes, as keys of a material.
+void add_law(const LawInfo& law, std::vector<KeyInfo>& reference)
+{
+  const std::string path = "material.NAME.", of = " Law " + law.name + ".";
+  if (not law.set_key.empty())
+  {
+    std::string sentence = "Known material whose numbers are taken:";
+    std::vector<std::string> names;
+    for (const SetInfo& set : law.sets)
+    {
+      sentence += " " + set.name + " (" + set.source + ");";
+      names.push_back(set.name);
+    }
+    sentence.back() = '.';
+    reference.push_back(
+        {path + law.set_key, "text", "", join(names), "", sentence + of});
+  }
+  for (const TextInfo& t : law.texts)
+    reference.push_back({path + t.name, "text", "", "",
+                         t.needed ? "required" : "", t.sentence + "." + of});
+  for (const ParameterInfo& p : law.parameters)
+    reference.push_back({path + p.name, "number", p.unit, p.range.words(),
+                         standard_of(p.standard), p.sentence + "." + of});
+  for (const ListInfo& l : law.lists)
+    reference.push_back(
+        {path + l.name, "list of numbers", "", "", "", l.sentence + "." + of});
+}
+} // namespace
+
 std::vector<KeyInfo> key_reference(const Libraries& libraries)
 {
   std::vector<KeyInfo> reference;
@@ -176,10 +207,7 @@ std::vector<KeyInfo> key_reference(const Libraries& libraries)
   allow("remap.transport", libraries.transports);
   allow("output.picture.NAME.field", libraries.fields);
   for (const LawInfo& law : libraries.laws)
-    for (const ParameterInfo& p : law.parameters)
-      reference.push_back({"material.NAME." + p.name, "number", p.unit,
-                           p.range.words(), standard_of(p.standard),
-                           p.sentence + " Law " + law.name + "."});
+    add_law(law, reference);
   return reference;
 }
 

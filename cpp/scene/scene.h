@@ -85,12 +85,14 @@ struct Boundary
   double to = infinity;    ///< [m]
 };
 
-/// A law by name and its parameters as written; the law's own aggregate checks
-/// them (`material/library.h`).
+/// A law by name and its numbers, texts and lists as written; the law's own
+/// aggregate checks them (`material/library.h`).
 struct Material
 {
   std::string law;
-  std::map<std::string, double> parameters;
+  std::map<std::string, double> parameters = {};
+  std::map<std::string, std::string> texts = {};
+  std::map<std::string, std::vector<double>> lists = {};
 };
 
 /// A value over the time of its stage [s]: constant, or piecewise linear.

@@ -194,7 +194,7 @@ template <class V>
 void keys(V& v, Material& m)
 {
   v({"law", "", "Name of the material law."}, m.law);
-  v.rest("Numbers of the law, by their names.", m.parameters);
+  v.rest("What the law takes, by its names.", m);
 }
 
 template <class V>

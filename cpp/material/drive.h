@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "law.h"
+#include <algorithm>
+
+/// Form P's way to ask a law: by the pressure instead of the volume strain.
+///
+/// The solver knows the deviatoric strain and, from the nodes, the pressure at
+/// the end of a step; wanted is the volume strain for which the law has this
+/// pressure. As p falls with theta at any state, there is one.
+namespace mmale::material
+{
+/// The answer, with derivatives by `de` and by `p`.
+struct Driven
+{
+  Voigt s = Voigt::Zero(); ///< deviator at the end [Pa]
+  double theta = 0;        ///< volume strain that goes with `p` [-]
+  double flow = 0;         ///< as in Response
+  Voigt2 ds_de = Voigt2::Zero();
+  Voigt ds_dp = Voigt::Zero();
+  Voigt dtheta_de = Voigt::Zero();
+  double dtheta_dp = 0;
+  Voigt dflow_de = Voigt::Zero();
+  double dflow_dp = 0;
+  Effort effort;
+};
+
+/// From derivatives at fixed theta to those at fixed p.
+inline void turn_derivatives(const Response& law, Driven& answer)
+{
+  const double slope = 1 / law.dp_dtheta;
+  answer.dtheta_dp = slope;
+  answer.dtheta_de = -slope * law.dp_de;
+  answer.ds_dp = slope * law.ds_dtheta;
+  answer.ds_de = law.ds_de + law.ds_dtheta * answer.dtheta_de.transpose();
+  answer.dflow_dp = slope * law.dflow_dtheta;
+  answer.dflow_de = law.dflow_de + law.dflow_dtheta * answer.dtheta_de;
+}
+
+/// A zero of a falling function, by Newton's method kept within bounds that
+/// close in; where the slope is not the function's own, by secants.
+class FallingRoot
+{
+public:
+  explicit FallingRoot(double start) : _x(start) {}
+  double x() const { return _x; }
+
+  /// The function at x, and its slope there or something like it; moves x.
+  void next(double value, double slope)
+  {
+    (value > 0 ? _low : _high) = _x;
+    if (_steps++ > 1 and _x != _last_x and value != _last)
+    {
+      const double secant = (value - _last) / (_x - _last_x);
+      if (secant < 0 and not(std::abs(value) < 0.2 * std::abs(_last)))
+        slope = secant; // Newton is slow: not its slope
+    }
+    _last = value;
+    _last_x = _x;
+    _x -= value / slope;
+    const double reach = std::max(1e-3, 4 * std::abs(_last_x));
+    _x = std::clamp(_x, _last_x - reach, _last_x + reach);
+    if (not(_x > _low and _x < _high))
+      _x = 0.5 * (_low + _high);
+  }
+
+  /// The function cannot be had at x: halfway back to where it could.
+  void retreat() { _x = 0.5 * (_x + _last_x); }
+
+private:
+  double _x, _last_x = 0, _last = 0;
+  double _low = -scene::infinity, _high = scene::infinity;
+  int _steps = 0;
+};
+
+/// Ask a law by pressure.
+///
+/// @param[in]     p     at the end of the step [Pa]
+/// @param[in]     guess of theta, or NaN: from the moduli
+/// @param[out]    q     history at the end
+/// @param[out]    answer
+/// @return reduce_step if the law asks for it, or has no such pressure
+template <MaterialLaw L>
+Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
+              double dt, double guess, TangentKind kind, std::span<double> q,
+              Driven& answer)
+{
+  constexpr int max_evaluations = 40;
+  // p has been summed from numbers of this size
+  const double tolerance =
+      1e-13 * (std::abs(p) + std::abs(start.p) + norm(start.s));
+  FallingRoot theta(std::isnan(guess) ? -(p - start.p) / law.moduli(start, dt).K
+                                      : guess);
+  Response r;
+  answer.effort = {};
+  for (int i = 0; i < max_evaluations; ++i)
+  {
+    std::ranges::copy(start.q, q.begin());
+    if (law.update(start, {de, theta.x(), dt}, kind, q, r) != Outcome::ok)
+    {
+      theta.retreat();
+      continue;
+    }
+    answer.effort += r.effort;
+    const double excess = r.p - p;
+    const double digits = std::abs(r.dp_dtheta * theta.x()) * 1e-15;
+    if (std::abs(excess) <= tolerance + digits)
+    {
+      answer.s = r.s;
+      answer.theta = theta.x();
+      answer.flow = r.flow;
+      turn_derivatives(r, answer);
+      return Outcome::ok;
+    }
+    theta.next(excess, r.dp_dtheta);
+  }
+  return Outcome::reduce_step;
+}
+} // namespace mmale::material
