@@ -293,6 +293,24 @@ void check_parameters(const Material& material, const LawInfo& law,
 }
 } // namespace
 
+void check_material(const Material& material, const Libraries& libraries,
+                    const std::string& key, Complaints& out)
+{
+  const auto law =
+      std::ranges::find(libraries.laws, material.law, &LawInfo::name);
+  if (law != libraries.laws.end())
+    return check_parameters(material, *law, key, out);
+  std::vector<std::string> laws;
+  for (const LawInfo& info : libraries.laws)
+    laws.push_back(info.name);
+  out.push_back({key + ".law",
+                 material.law.empty() ? missing("Name of the material law", "",
+                                                "one of " + join(laws))
+                                      : "unknown '" + material.law + "', "
+                                            + suggestion(material.law, laws),
+                 {}});
+}
+
 void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out)
 {
@@ -307,27 +325,8 @@ void check_materials(const Scene& scene, const Libraries& libraries,
                                "one",
                                scene.material.size()),
                    {}});
-  std::vector<std::string> laws;
-  for (const LawInfo& law : libraries.laws)
-    laws.push_back(law.name);
   for (const auto& [name, material] : scene.material)
-  {
-    const std::string key = "material." + name;
-    const auto law =
-        std::ranges::find(libraries.laws, material.law, &LawInfo::name);
-    if (law != libraries.laws.end())
-      check_parameters(material, *law, key, out);
-    else if (material.law.empty())
-      out.push_back(
-          {key + ".law",
-           missing("Name of the material law", "", "one of " + join(laws)),
-           {}});
-    else
-      out.push_back(
-          {key + ".law",
-           "unknown '" + material.law + "', " + suggestion(material.law, laws),
-           {}});
-  }
+    check_material(material, libraries, "material." + name, out);
 }
 
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out)

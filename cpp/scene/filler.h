@@ -48,6 +48,14 @@ public:
       number(*node, under(_path, key.name), x);
   }
 
+  void operator()(const Key& key, std::optional<double>& x)
+  {
+    double value = 0;
+    if (const Node* node = find(key.name))
+      if (number(*node, under(_path, key.name), value))
+        x = value;
+  }
+
   void operator()(const Key& key, int& i)
   {
     if (const Node* node = find(key.name))

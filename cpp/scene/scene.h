@@ -93,6 +93,8 @@ struct Material
   std::map<std::string, double> parameters = {};
   std::map<std::string, std::string> texts = {};
   std::map<std::string, std::vector<double>> lists = {};
+  std::string folder = {}; ///< where relative files start; no key: the reader
+                           ///< puts the scene's own folder
 };
 
 /// A value over the time of its stage [s]: constant, or piecewise linear.

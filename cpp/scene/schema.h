@@ -30,11 +30,16 @@ struct Key
 template <class T, class... U>
 concept OneOf = (std::same_as<T, U> or ...);
 
+/// Is T a table with `keys`? What is no part of a scene says so beside its own
+/// `keys`.
 template <class T>
-concept Table =
+inline constexpr bool is_table =
     OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Dynamics,
           Stage, Solver, Remap, Tracer, Domain, Initial, Motion, Curve, Line,
           ReferenceLine, Chart, Picture, Output, Scene>;
+
+template <class T>
+concept Table = is_table<T>;
 
 template <class T>
 concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent,
