@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "drucker_prager.h"
 #include "elastic.h"
+#include "herschel_bulkley.h"
 #include "j2.h"
+#include "mohr_coulomb.h"
+#include "newtonian.h"
+#include "rigid.h"
 #include "scene/parameter.h"
+#include "void.h"
 #include <variant>
 
 namespace mmale::material
 {
 /// Every law. A new one is its file and its name here; the scene reader and
 /// the conformance tests walk this list.
-using AnyLaw = std::variant<Elastic, J2>;
+using AnyLaw = std::variant<Elastic, J2, DruckerPrager, MohrCoulomb, Newtonian,
+                            HerschelBulkley, Rigid, Void>;
 
 /// Names, parameters and ranges of all laws, for the scene reader.
 std::vector<scene::LawInfo> law_infos();
