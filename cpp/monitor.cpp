@@ -391,6 +391,8 @@ std::vector<output::NamedField> Monitor::fields()
   out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
   out.push_back({"stress", Location::cell, 4, stress, "Pa"});
   out.push_back({"density", Location::cell, 1, state.density, "kg/m3"});
+  if (not state.apex.empty())
+    out.push_back({"apex", Location::cell, 1, state.apex, ""});
   // history numbers come apart, one field each
   const auto names = material::history_names(*_sim.law);
   const std::size_t h = names.size();

@@ -151,7 +151,11 @@ void Element::accept(State& state, std::span<const double> z, double dt)
 {
   accept_stress(state);
   for (int c = 0; c < _domain.num_owned_cells; ++c)
+  {
     state.density[c] *= std::exp(-ln_J(c));
+    if (not state.apex.empty())
+      state.apex[c] += effort(c).apex > 0;
+  }
   std::ranges::copy(_history, state.history.begin());
   for (int n = 0; n < _domain.num_nodes(); ++n)
   {
@@ -165,6 +169,8 @@ void Element::accept(State& state, std::span<const double> z, double dt)
   _domain.cell_halo->update(state.s, 4 * _num_points);
   _domain.cell_halo->update(state.P, _num_points);
   _domain.cell_halo->update(state.density, 1);
+  if (not state.apex.empty())
+    _domain.cell_halo->update(state.apex, 1);
   if (_num_history > 0)
     _domain.cell_halo->update(state.history, _num_history * _num_points);
 }

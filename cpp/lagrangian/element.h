@@ -89,8 +89,8 @@ public:
   /// Moduli of a cell as it is: means over its points [Pa].
   material::Moduli moduli(const State& state, int cell, double dt) const;
 
-  /// What the laws' last answers took, of the owned cells.
-  virtual material::Effort effort() const = 0;
+  /// What the law's last answer took in a cell.
+  virtual material::Effort effort(int cell) const = 0;
 
 protected:
   Element(const mesh::Domain& domain, const material::AnyLaw& law,

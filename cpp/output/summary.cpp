@@ -167,6 +167,8 @@ std::string to_json(const Summary& s)
                             {"remaps", s.remaps},
                             {"remaps_left_out", s.remaps_left_out},
                             {"remap_trouble", s.remap_trouble},
+                            {"law", s.law},
+                            {"initial_imbalance", number(s.initial_imbalance)},
                             {"resumed", s.resumed},
                             {"cells", s.cells},
                             {"nodes", s.nodes},

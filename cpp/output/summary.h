@@ -27,9 +27,11 @@ struct Summary
   std::int64_t rejected = 0;   ///< steps taken back
   std::int64_t iterations = 0; ///< Newton, rejected steps included
   std::int64_t remaps = 0;
-  std::int64_t remaps_left_out = 0; ///< asked for, but not possible
-  std::string remap_trouble;        ///< why, the last time
-  std::int64_t resumed = 0;         ///< times that it went on from a checkpoint
+  std::int64_t remaps_left_out = 0;             ///< asked for, but not possible
+  std::string remap_trouble;                    ///< why, the last time
+  std::map<std::string, std::int64_t> law = {}; ///< what its updates took
+  double initial_imbalance = 0; ///< of ground, over its weight [-]
+  std::int64_t resumed = 0;     ///< times that it went on from a checkpoint
   std::int64_t cells = 0, nodes = 0; ///< of the whole mesh
   double wall_seconds = 0;           ///< [s]
   std::map<std::string, std::string> versions = library_versions();

@@ -329,8 +329,39 @@ void check_materials(const Scene& scene, const Libraries& libraries,
     check_material(material, libraries, "material." + name, out);
 }
 
+namespace
+{
+void check_initial(const Scene& scene, Complaints& out)
+{
+  const Initial& initial = scene.initial;
+  if (initial.pressure and initial.K0)
+    out.push_back({"initial.pressure", "is for a body without K0", {}});
+  for (std::size_t i = 1; i < initial.void_ratio.size(); ++i)
+    if (not(initial.void_ratio[i].depth > initial.void_ratio[i - 1].depth))
+      out.push_back({std::format("initial.void_ratio.{}.depth", i),
+                     "depths must ascend",
+                     {}});
+  if (not initial.K0)
+  {
+    if (initial.surface and initial.void_ratio.empty())
+      out.push_back({"initial.surface", "needs K0 or void_ratio", {}});
+    if (initial.surcharge > 0)
+      out.push_back({"initial.surcharge", "needs K0", {}});
+    return;
+  }
+  const auto& gravity =
+      scene.stage.empty() ? std::nullopt : scene.stage.front().gravity;
+  if (not gravity or (*gravity)[0](0) != 0 or not((*gravity)[1](0) < 0))
+    out.push_back({"initial.K0",
+                   "needs gravity = [0, -9.81] or the like in the first stage",
+                   {}});
+}
+} // namespace
+
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out)
 {
+  if (not scene.motion)
+    check_initial(scene, out);
   if (scene.stage.empty() and scene.domain.empty())
     out.push_back({"stage",
                    "missing: at least one [[stage]] with name, duration and "

@@ -273,10 +273,23 @@ struct Domain
                            ///< 0: 1e-4 of the box's height
 };
 
-/// The body at the start of the run; unstressed.
+/// A number at a depth below the ground surface.
+struct AtDepth
+{
+  double depth = required; ///< [m]
+  double value = required;
+};
+
+/// The body at the start of the run. Unstressed, or with a pressure, or as
+/// ground that lies at rest under its weight.
 struct Initial
 {
-  Point velocity = {0, 0}; ///< of all of it [m/s]
+  Point velocity = {0, 0};         ///< of all of it [m/s]
+  std::optional<double> pressure;  ///< the same everywhere [Pa]
+  std::optional<double> K0;        ///< horizontal over vertical stress [-]
+  std::optional<double> surface;   ///< of the ground, y [m]; default the top
+  double surcharge = 0;            ///< vertical stress at the surface [Pa]
+  std::vector<AtDepth> void_ratio; ///< linear between depths, constant beyond
 };
 
 /// A prescribed rigid rotation instead of a Lagrangian step.

@@ -35,8 +35,8 @@ concept OneOf = (std::same_as<T, U> or ...);
 template <class T>
 inline constexpr bool is_table =
     OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Dynamics,
-          Stage, Solver, Remap, Tracer, Domain, Initial, Motion, Curve, Line,
-          ReferenceLine, Chart, Picture, Output, Scene>;
+          Stage, Solver, Remap, Tracer, Domain, Initial, AtDepth, Motion, Curve,
+          Line, ReferenceLine, Chart, Picture, Output, Scene>;
 
 template <class T>
 concept Table = is_table<T>;
@@ -241,10 +241,30 @@ void keys(V& v, Domain& d)
 }
 
 template <class V>
+void keys(V& v, AtDepth& a)
+{
+  v({"depth", "m", "Depth below the ground surface."}, a.depth);
+  v({"value", "-", "Value there.", above(0)}, a.value);
+}
+
+template <class V>
 void keys(V& v, Initial& i)
 {
   v({"velocity", "m/s", "Of the whole body; for a first stage with dynamics."},
     i.velocity);
+  v({"pressure", "Pa", "Stress everywhere, the same in all directions."},
+    i.pressure);
+  v({"K0", "-",
+     "Ground at rest under its weight: horizontal over vertical stress.",
+     above(0)},
+    i.K0);
+  v({"surface", "m", "Where the ground surface lies; default the body's top."},
+    i.surface);
+  v({"surcharge", "Pa", "Vertical stress at the ground surface.", at_least(0)},
+    i.surcharge);
+  v({"void_ratio", "",
+     "Void ratio by depth, instead of the law's; linear in between."},
+    i.void_ratio);
 }
 
 template <class V>

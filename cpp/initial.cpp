@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "initial.h"
+
+#include "lagrangian/kernel.h"
+#include "material/drive.h"
+#include "simulation.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <format>
+#include <stdexcept>
+
+namespace mmale
+{
+namespace
+{
+double top_of(const mesh::Domain& domain)
+{
+  double top = -scene::infinity;
+  for (std::size_t i = 1; i < domain.initial_x.size(); i += 2)
+    top = std::max(top, domain.initial_x[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &top, 1, MPI_DOUBLE, MPI_MAX, domain.comm);
+  return top;
+}
+
+/// Shares of the three vertices in point q of `points` of a cell.
+std::array<double, 3> shares(int points, int q)
+{
+  if (points == 3)
+    return lagrangian::points<3>()[q];
+  if (points == 6)
+    return lagrangian::points<6>()[q];
+  return {1. / 3, 1. / 3, 1. / 3};
+}
+} // namespace
+
+Ground::Ground(const scene::Scene& scene, const mesh::Domain& domain,
+               const material::AnyLaw& law)
+    : _initial(scene.initial), _law(law),
+      _surface(scene.initial.surface.value_or(top_of(domain)))
+{
+  if (not scene.stage.empty() and scene.stage.front().gravity)
+    _gravity = -(*scene.stage.front().gravity)[1](0);
+}
+
+double Ground::void_ratio(double y) const
+{
+  const auto& at = _initial.void_ratio;
+  if (at.empty())
+    return scene::required;
+  const double depth = _surface - y;
+  const auto below = std::ranges::find_if(at, [depth](const scene::AtDepth& a)
+                                          { return a.depth >= depth; });
+  if (below == at.begin())
+    return at.front().value;
+  if (below == at.end())
+    return at.back().value;
+  const auto& [d0, e0] = *(below - 1);
+  const auto& [d1, e1] = *below;
+  return e0 + (e1 - e0) * (depth - d0) / (d1 - d0);
+}
+
+double Ground::density(double y) const
+{
+  const material::Start at{.void_ratio = void_ratio(y)};
+  return std::visit([&](const auto& law)
+                    { return material::initial_density(law, at); }, _law);
+}
+
+double Ground::vertical_stress(double y) const
+{
+  // rho may bend where the void ratio does, and is smooth in between: Simpson
+  // between these depths
+  const double depth = _surface - y;
+  std::vector<double> bends{0};
+  for (const auto& a : _initial.void_ratio)
+    if (a.depth > 0 and a.depth < depth)
+      bends.push_back(a.depth);
+  bends.push_back(depth);
+  double mass = 0;
+  const auto rho = [this](double d) { return density(_surface - d); };
+  for (std::size_t i = 1; i < bends.size(); ++i)
+  {
+    const double a = bends[i - 1], h = bends[i] - a;
+    mass += h / 6 * (rho(a) + 4 * rho(a + 0.5 * h) + rho(a + h));
+  }
+  return _initial.surcharge + _gravity * mass;
+}
+
+double Ground::horizontal_stress(double y) const
+{
+  return *_initial.K0 * vertical_stress(y);
+}
+
+double Ground::pressure(double y) const
+{
+  if (not _initial.K0)
+    return _initial.pressure.value_or(0);
+  return (vertical_stress(y) + 2 * horizontal_stress(y)) / 3;
+}
+
+void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
+                  const material::AnyLaw& law, State& state)
+{
+  const Ground ground(scene, domain, law);
+  const std::size_t nodes = domain.num_nodes(), cells = domain.num_cells();
+  const int points = state.points;
+  const std::size_t h = material::num_history(law);
+  state.p.resize(nodes);
+  for (std::size_t n = 0; n < nodes; ++n)
+    state.p[n] = ground.pressure(domain.initial_x[2 * n + 1]);
+  state.s.assign(4 * cells * points, 0);
+  state.P.resize(cells * points);
+  state.density.resize(cells);
+  state.history.assign(h * cells * points, 0);
+  const bool has_floor = std::visit(
+      []<class L>(const L&)
+      { return L::yields and not material::LinearPressure<L>; }, law);
+  state.apex.assign(has_floor ? cells : 0, 0);
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    const auto height = [&](const std::array<double, 3>& share)
+    {
+      double y = 0;
+      for (int v = 0; v < 3; ++v)
+        y += share[v] * domain.initial_x[2 * domain.cells[c][v] + 1];
+      return y;
+    };
+    state.density[c] = ground.density(height(shares(1, 0)));
+    for (int k = 0; k < points; ++k)
+    {
+      const std::size_t q = points * c + k;
+      const double y = height(shares(points, k));
+      const double p = state.P[q] = ground.pressure(y);
+      if (scene.initial.K0)
+      {
+        const double down = p - ground.vertical_stress(y);
+        const double across = p - ground.horizontal_stress(y);
+        material::Voigt::Map(state.s.data() + 4 * q) << across, down, across, 0;
+      }
+      const material::Start start{p, ground.void_ratio(y)};
+      std::visit(
+          [&](const auto& l)
+          { l.begin(start, std::span(state.history).subspan(h * q, h)); }, law);
+    }
+  }
+}
+namespace
+{
+/// The first stage at its beginning: everything stands still.
+scene::Stage at_rest(scene::Stage stage)
+{
+  const auto now = [](std::optional<scene::TimeSeries>& series)
+  {
+    if (series)
+      series = scene::TimeSeries{{}, {(*series)(0)}};
+  };
+  const auto stop = [](std::optional<scene::TimeSeries>& series)
+  {
+    if (series)
+      series = scene::TimeSeries{{}, {0}};
+  };
+  stage.dynamics.reset();
+  for (auto& g : *stage.gravity)
+    g = scene::TimeSeries{{}, {g(0)}};
+  for (auto& [name, condition] : stage.boundary)
+  {
+    for (auto* series : {&condition.velocity_x, &condition.velocity_y,
+                         &condition.displacement_x, &condition.displacement_y})
+      stop(*series);
+    for (auto* series :
+         {&condition.traction_x, &condition.traction_y, &condition.pressure})
+      now(*series);
+    if (condition.wall)
+      stop(condition.wall->velocity_y);
+    if (condition.absorbing) // it carries what it carries at rest
+      condition.fixed = true;
+    condition.absorbing = false;
+  }
+  return stage;
+}
+
+/// Largest share of a stress that the law would cut off. Collective.
+double beyond_the_law(const Simulation& sim)
+{
+  State copy = sim.state;
+  double worst = 0;
+  const std::size_t h = material::num_history(*sim.law);
+  std::visit(
+      [&](const auto& law)
+      {
+        for (std::size_t q = 0; q < copy.P.size(); ++q)
+          worst = std::max(
+              worst,
+              law.admit(Eigen::Map<material::Voigt>(copy.s.data() + 4 * q),
+                        copy.P[q], std::span(copy.history).subspan(h * q, h)));
+      },
+      *sim.law);
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, sim.domain.comm);
+  return worst;
+}
+} // namespace
+
+Balance settle(Simulation& sim)
+{
+  // forces on free nodes over the weight; the steps of Newton's method reach
+  // the solver's own tolerance
+  constexpr double enough = 1e-8;
+  constexpr int max_rounds = 4;
+  const scene::Stage stage = at_rest(sim.scene.stage.front());
+  State& state = sim.state;
+  Balance balance;
+  sim.problem->set_stage(stage, state);
+  sim.problem->rest_under_gravity();
+  balance.as_laid = balance.settled = sim.problem->imbalance(state, stage.step);
+  if (balance.as_laid > 0.1 * enough)
+  {
+    const auto [G, K] = sim.problem->moduli(state, stage.step);
+    const material::AnyLaw elastic =
+        material::Elastic{.E = 9 * K * G / (3 * K + G),
+                          .nu = (3 * K - 2 * G) / (6 * K + 2 * G),
+                          .density = 0};
+    State trial = state;
+    trial.history.clear();
+    lagrangian::Problem problem(sim.domain, elastic, sim.scene.symmetry,
+                                sim.scene.solver, sim.clock);
+    problem.set_stage(stage, trial);
+    problem.rest_under_gravity();
+    for (int i = 0; i < max_rounds and balance.settled > 0.1 * enough; ++i)
+    {
+      lagrangian::NewtonLog log;
+      if (not problem.solve(trial, 0, stage.step, log))
+        break;
+      trial.x = state.x;
+      trial.density = state.density;
+      state.s = trial.s;
+      state.P = trial.P;
+      state.p = trial.p;
+      balance.settled = sim.problem->imbalance(state, stage.step);
+    }
+  }
+  if (not(balance.settled <= enough))
+    throw std::runtime_error(std::format(
+        "the initial stress is not in balance with the weight and the loads of "
+        "stage '{}': a force of {:.1e} of the weight is left on a node",
+        stage.name, balance.settled));
+  if (const double cut = beyond_the_law(sim); cut > 1e-6)
+    throw std::runtime_error(
+        std::format("the initial stress is more than the material bears: {:.1e}"
+                    " of it would be cut off; K0 = {}?",
+                    cut, *sim.scene.initial.K0));
+  return balance;
+}
+} // namespace mmale
