@@ -86,6 +86,7 @@ public:
     const Principal mean = Principal::Constant(1.0 / 3);
     _plane[floor_] = {mean, mean, tension};
     _bounded = std::isfinite(tension);
+    _pointed = not(tension < law.tip());
   }
 
   /// Least pressure but for gaps [Pa].
@@ -168,6 +169,8 @@ private:
       // what the floor holds back is the gap
       const double softness = Gap::gap_share * _K;
       r.gap = lambda[set.size - 1];
+      if (set.size == 3 and _pointed)
+        r.sigma.setConstant(-floor()); // without the trial's round-off
       r.sigma.array() += softness * r.gap;
       r.slope += Principal::Constant(softness) * M.row(set.size - 1);
     }
@@ -176,7 +179,8 @@ private:
 
   double _G, _K;
   std::array<Plane, num_faces> _plane;
-  bool _bounded;
+  bool _bounded; ///< there is a floor
+  bool _pointed; ///< it is the tip's
 };
 
 /// Order of three numbers, the largest first.
