@@ -23,6 +23,7 @@ struct HerschelBulkley
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "herschel_bulkley";
   static constexpr bool symmetric = true, yields = false, fluid = true;
+  static constexpr bool linear_pressure = true;
 
   double yield_stress = required;   ///< in shear [Pa]
   double consistency = required;    ///< [Pa s^exponent]

@@ -16,44 +16,35 @@ struct Plane
   double limit;     ///< [Pa]
 };
 
-/// Which plane: Mohr-Coulomb's between two principal stresses, Rankine's of
-/// one, the floor of the mean one.
+/// Which plane: Mohr-Coulomb's between two principal stresses, the floor of
+/// the pressure.
 enum Face
 {
   mc13,
   mc12,
   mc23,
-  tension1,
-  tension2,
   floor_,
   num_faces
 };
 
 constexpr int max_active = 3;
 
-/// Faces that may be active together.
+/// Faces that may be active together: the plane, its edges, the floor, and
+/// where they meet (with the tip as floor: the two last).
 struct Set
 {
   int size;
   std::array<Face, max_active> face;
-};
 
-// Without a cut-off below the tip: the plane, its edges, the tip.
-constexpr std::array<Set, 5> pyramid{{{1, {mc13}},
-                                      {2, {mc13, mc12}},
-                                      {2, {mc13, mc23}},
-                                      {3, {mc13, mc12, floor_}},
-                                      {3, {mc13, mc23, floor_}}}};
-constexpr std::array<Set, 10> cut_pyramid{{{1, {mc13}},
-                                           {1, {tension1}},
-                                           {2, {mc13, mc12}},
-                                           {2, {mc13, mc23}},
-                                           {2, {mc13, tension1}},
-                                           {2, {tension1, tension2}},
-                                           {3, {mc13, mc12, tension1}},
-                                           {3, {mc13, mc23, tension1}},
-                                           {3, {mc13, tension1, tension2}},
-                                           {3, {tension1, tension2, floor_}}}};
+  bool has_floor() const { return face[size - 1] == floor_; }
+};
+constexpr std::array<Set, 7> sets{{{1, {mc13}},
+                                   {2, {mc13, mc12}},
+                                   {2, {mc13, mc23}},
+                                   {1, {floor_}},
+                                   {2, {mc13, floor_}},
+                                   {3, {mc13, mc12, floor_}},
+                                   {3, {mc13, mc23, floor_}}}};
 
 using Multipliers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_active, 1>;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, max_active, 3>;
@@ -79,8 +70,7 @@ public:
     const double sine = std::sin(radian(law.friction_deg));
     const double sine_flow = std::sin(radian(law.dilation_deg));
     const double limit = 2 * law.cohesion * std::cos(radian(law.friction_deg));
-    const double tip = law.tip();
-    const double tension = std::min(law.tensile_strength, tip);
+    const double tension = std::min(law.tensile_strength, law.tip());
     const auto between = [&](int i, int j)
     {
       Plane f{Principal::Zero(), Principal::Zero(), limit};
@@ -93,12 +83,10 @@ public:
     _plane[mc13] = between(0, 2);
     _plane[mc12] = between(0, 1);
     _plane[mc23] = between(1, 2);
-    for (int i : {0, 1})
-      _plane[tension1 + i] = {Principal::Unit(i), Principal::Unit(i), tension};
     const Principal mean = Principal::Constant(1.0 / 3);
     _plane[floor_] = {mean, mean, tension};
     _bounded = std::isfinite(tension);
-    _cut = law.tensile_strength < tip;
+    _pointed = not(tension < law.tip());
   }
 
   /// Least pressure but for gaps [Pa].
@@ -108,26 +96,18 @@ public:
   double excess(const Principal& sigma) const
   {
     double worst = -infinite;
-    for (int f = 0; f < num_faces; ++f)
-      if (is_there(f))
-        worst = std::max(worst, _plane[f].normal.dot(sigma) - _plane[f].limit);
+    for (int f = 0; f < (_bounded ? num_faces : floor_); ++f)
+      worst = std::max(worst, _plane[f].normal.dot(sigma) - _plane[f].limit);
     return worst;
   }
 
   /// Largest share of `s` that the surface bears at pressure p >= floor.
   double share(const Principal& s, double p) const
   {
-    double least = 1;
-    for (int f = 0; f < floor_; ++f)
-      if (is_there(f))
-      {
-        const double size = _plane[f].normal.dot(s);
-        const double room =
-            std::max(_plane[f].limit + p * _plane[f].normal.sum(), 0.0);
-        if (size > room)
-          least = std::min(least, room / size);
-      }
-    return least;
+    const Plane& f = _plane[mc13];
+    const double size = f.normal.dot(s);
+    const double room = std::max(f.limit + p * f.normal.sum(), 0.0);
+    return size > room ? room / size : 1;
   }
 
   /// Back to the surface from a trial stress s1 >= s2 >= s3.
@@ -141,8 +121,10 @@ public:
     // Each is tried: the first without a violation is the answer, and with
     // round-off the one with the least.
     double least = infinite;
-    const auto attempt = [&](const Set& set)
+    for (const Set& set : sets)
     {
+      if (set.has_floor() and not _bounded)
+        continue;
       Returned r;
       const double violation = solve(set, trial, r);
       if (violation < least)
@@ -150,28 +132,14 @@ public:
         least = violation;
         best = r;
       }
-      return least <= 1e-14 * scale;
-    };
-    if (_cut)
-      (void)std::ranges::any_of(cut_pyramid, attempt);
-    else
-      (void)std::ranges::any_of(pyramid,
-                                [&](const Set& set)
-                                {
-                                  const bool tip =
-                                      set.face[set.size - 1] == floor_;
-                                  return (_bounded or not tip) and attempt(set);
-                                });
+      if (least <= 1e-14 * scale)
+        break;
+    }
     return best;
   }
 
 private:
   static constexpr double infinite = scene::infinity;
-
-  bool is_there(int face) const
-  {
-    return face <= mc23 or (face == floor_ ? _bounded : _cut);
-  }
 
   /// Return to a set of planes.
   /// @return the worst negative multiplier or excess over a plane [Pa]
@@ -188,28 +156,31 @@ private:
       DB.col(i).array() += (_K - 2 * _G / 3) * f.flow.sum();
       excess[i] = f.normal.dot(trial) - f.limit;
     }
-    const Rows M = Square(A * DB).partialPivLu().solve(A);
-    const Multipliers lambda = Square(A * DB).partialPivLu().solve(excess);
+    const auto factor = Square(A * DB).partialPivLu();
+    const Rows M = factor.solve(A);
+    const Multipliers lambda = factor.solve(excess);
     r.plastic = true;
     r.sigma = trial - DB * lambda;
     r.slope = Principal2::Identity() - DB * M;
-    const bool tip = set.face[set.size - 1] == floor_;
-    if (tip)
+    const double violation =
+        std::max(-2 * _G * lambda.minCoeff(), this->excess(r.sigma));
+    if (set.has_floor())
     {
-      // s = 0; what the floor holds back is the gap
+      // what the floor holds back is the gap
+      const double softness = Gap::gap_share * _K;
       r.gap = lambda[set.size - 1];
-      r.sigma.setConstant(-floor() + Gap::gap_share * _K * r.gap);
-      r.slope = Principal::Constant(Gap::gap_share * _K) * M.row(set.size - 1);
+      if (set.size == 3 and _pointed)
+        r.sigma.setConstant(-floor()); // without the trial's round-off
+      r.sigma.array() += softness * r.gap;
+      r.slope += Principal::Constant(softness) * M.row(set.size - 1);
     }
-    double violation = -2 * _G * lambda.minCoeff();
-    if (not tip)
-      violation = std::max(violation, this->excess(r.sigma));
     return std::isnan(violation) ? infinite : violation;
   }
 
   double _G, _K;
   std::array<Plane, num_faces> _plane;
-  bool _bounded, _cut;
+  bool _bounded; ///< there is a floor
+  bool _pointed; ///< it is the tip's
 };
 
 /// Order of three numbers, the largest first.
@@ -263,8 +234,16 @@ Outcome MohrCoulomb::update(const Point& start, const Strain& step,
   const Voigt one(1, 1, 1, 0);
   const Voigt trial = start.s + D * step.de;
   const double p_trial = Gap{surface.floor()}.elastic(start.p) - K * step.theta;
-  // a prism without end does not care for p: its digits stay out of s
-  const double aside = std::isinf(surface.floor()) ? p_trial : 0;
+  // What of p does no matter stays aside, so that its digits stay out of s:
+  // all of it for a prism without end, and a gap that no dilation can close.
+  const double floor = surface.floor();
+  const double reach =
+      4 * K / G * norm(trial) + std::abs(floor) + std::abs(start.p);
+  double aside = 0;
+  if (std::isinf(floor))
+    aside = p_trial;
+  else if (reach > 0 and p_trial < floor - reach)
+    aside = p_trial - (floor - reach);
   const PrincipalAxes axes(trial);
   const auto order = descending(axes.values());
   Principal sorted;
@@ -300,7 +279,7 @@ Outcome MohrCoulomb::update(const Point& start, const Strain& step,
       2 * G * Principal2::Identity() + Principal2::Constant(K - 2 * G / 3);
   split(axes.assemble(values),
         axes.assemble(Principal2(slope * elastic), G * turn), answer);
-  answer.p += aside;
+  answer.p += std::isinf(floor) ? aside : Gap::gap_share * aside;
   answer.effort.apex = r.gap > 0;
   if (kind == TangentKind::robust)
   {

@@ -9,10 +9,12 @@ namespace mmale::material
 /// Elastic, ideally plastic with Mohr-Coulomb's hexagonal pyramid, cut off in
 /// tension; non-associated. Without friction it is Tresca's prism.
 ///
-///     (s1 - s3) + (s1 + s3) sin phi <= 2 c cos phi,   s1 <= tensile_strength
+///     (s1 - s3) + (s1 + s3) sin phi <= 2 c cos phi,   -p <= tensile_strength
 ///
 /// for principal stresses s1 >= s2 >= s3, tension positive; flow by the angle
-/// of dilation, across the cut-off normal to it. The return is exact for an
+/// of dilation, across the cut-off in volume. The cut-off is of the mean
+/// stress: one of the largest principal stress would fix all three at its
+/// corners, so that p no more fell with theta. The return is exact for an
 /// elastic trial stress: in principal stresses all is planes, and of the sets
 /// of planes that may be active together that one is taken whose answer
 /// violates nothing.
@@ -31,7 +33,7 @@ struct MohrCoulomb
   double friction_deg = required;      ///< in degrees
   double dilation_deg = required;      ///< in degrees
   double density = required;           ///< [kg/m3]
-  double tensile_strength = not_given; ///< largest principal tension [Pa]
+  double tensile_strength = not_given; ///< largest mean tension [Pa]
 
   static inline const std::array<Parameter<MohrCoulomb>, 7> parameters{{
       {"E", "Pa", &MohrCoulomb::E, scene::above(0), "Young's modulus"},
@@ -51,8 +53,7 @@ struct MohrCoulomb
       {"density", "kg/m3", &MohrCoulomb::density, scene::at_least(0),
        "mass density"},
       {"tensile_strength", "Pa", &MohrCoulomb::tensile_strength,
-       scene::at_least(0),
-       "largest principal tension; not given: that of the tip"},
+       scene::at_least(0), "largest mean tension; not given: that of the tip"},
   }};
 
   std::vector<HistoryField> history() const { return {}; }

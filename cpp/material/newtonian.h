@@ -13,6 +13,7 @@ struct Newtonian
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "newtonian";
   static constexpr bool symmetric = true, yields = false, fluid = true;
+  static constexpr bool linear_pressure = true;
 
   double viscosity = required;    ///< shear stress over shear rate [Pa s]
   double bulk_modulus = required; ///< [Pa]

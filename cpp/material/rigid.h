@@ -17,6 +17,7 @@ struct Rigid
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "rigid";
   static constexpr bool symmetric = true, yields = false, fluid = false;
+  static constexpr bool linear_pressure = true;
 
   double stiffness = required; ///< shear and bulk modulus [Pa]
   double density = required;   ///< [kg/m3]

@@ -13,6 +13,7 @@ struct Void
 {
   static constexpr std::string_view name = "void";
   static constexpr bool symmetric = true, yields = false, fluid = true;
+  static constexpr bool linear_pressure = true;
 
   double stiffness = 1; ///< [Pa]; doubled, a void of twice its volume pulls
                         ///< with 1.4 Pa for 0.7

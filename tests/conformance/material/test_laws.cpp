@@ -494,7 +494,9 @@ TEST_CASE("the samples' parameters are complete, in range and without "
           CHECK(parameter.range.holds(given.at(parameter.name)));
       }
   const AnyLaw law = make_law(sample.material);
-  CHECK(std::visit([](const auto& l) { return l.complaints(); }, law).empty());
+  if (sample.law() != "void") // which complains of being alone in a scene
+    CHECK(
+        std::visit([](const auto& l) { return l.complaints(); }, law).empty());
 }
 
 TEST_CASE("every parameter set makes a law without complaints, and says its "
