@@ -20,7 +20,7 @@ enum class Phase
 class Known
 {
 public:
-  Phase phase = Phase::growing;
+  Phase phase = Phase::turning;
 
   void start(Phase to, double t, const Tensor<4>& h, const Tensor2<4>& h_D)
   {
@@ -118,7 +118,7 @@ private:
   void evaluate(int i)
   {
     _rate[i].evaluate(_c, _T[i], void_ratio(_task, _time[i]), _h[i], _task.D,
-                      _size);
+                      _size, _known.phase != Phase::turning);
   }
   void begin_stages()
   {
@@ -129,7 +129,7 @@ private:
     evaluate(0);
   }
 
-  /// Which phase comes next, and until when.
+  /// Which phase of intergranular strain comes next, and until when.
   void enter();
   /// Largest size of a sub-step that growing h allows, from rest or in all.
   double reach(double rho) const { return rho * _c.R / _size; }
@@ -154,7 +154,7 @@ void Path<with_grains, Scheme>::enter()
     {
       phase = Phase::turning;
       _until = std::min(1.0, _t - along / (_size * _size));
-      if (not(_until > _t)) // round-off: it has turned
+      if (not(_until > _t + 1e-12)) // round-off: it has turned
       {
         phase = Phase::growing;
         _until = 1;
@@ -338,7 +338,10 @@ void Path<with_grains, Scheme>::begin_slopes()
   const Eigen::RowVector4d begin_D = _task.begin_D * unit<4>().transpose();
   _y.T_D = -_rate[0].stress * begin_D;
   if constexpr (with_grains)
+  {
     _y.h_D = -_rate[0].grains.rate * begin_D;
+    _known.start(_known.phase, _t, _y.h, _y.h_D);
+  }
   _y.opened_D
       = (-_rate[0].landing * _task.theta) * begin_D.transpose();
 }
@@ -357,6 +360,8 @@ template <bool with_grains, class Scheme>
 Outcome Path<with_grains, Scheme>::run()
 {
   const bool slopes = _task.kind == TangentKind::consistent;
+  if (_size > 0)
+    enter();
   begin_stages();
   if (_task.kind == TangentKind::robust or not(_size > 0))
     rate_slopes();
@@ -364,7 +369,6 @@ Outcome Path<with_grains, Scheme>::run()
     return Outcome::ok;
   if (slopes and _task.begin > 0)
     begin_slopes();
-  enter();
   double dt = first_size();
   bool clipped = _rate[0].factor.clipped, landed = _rate[0].landing > 0;
   while (_t < 1)

@@ -164,6 +164,7 @@ struct Grains
   Tensor<N> hd = Tensor<N>::Zero(); ///< direction of h
   double rho = 0;                   ///< |h|/R
   double s = 0;                     ///< hd : D
+  bool along = false;               ///< the law's case of s > 0
   double w = 0;                     ///< rho^chi
   double stiff = 0;                 ///< factor of L : D
   double turn = 0;                  ///< of (L : hd)(hd : D), without w
@@ -172,12 +173,16 @@ struct Grains
   Tensor<N> rate = Tensor<N>::Zero();
 };
 
+/// @param[in] along which of the law's two cases: hd : D > 0. They meet where it
+/// is 0, but their derivatives do not.
 template <int N>
-Grains<N> grains(const Sand& c, const Tensor<N>& h, const Tensor<N>& D)
+Grains<N> grains(const Sand& c, const Tensor<N>& h, const Tensor<N>& D,
+                 bool along)
 {
   Grains<N> r;
   const double size = h.norm();
   r.rate = D;
+  r.along = along;
   r.stiff = c.m_R;
   if (not(size > 1e-14 * c.R))
     return r;
@@ -187,7 +192,7 @@ Grains<N> grains(const Sand& c, const Tensor<N>& h, const Tensor<N>& D)
   const double log_rho = std::log(r.rho);
   r.w = std::exp(c.chi * log_rho);
   r.stiff = c.m_R + r.w * (c.m_T - c.m_R);
-  if (not(r.s > 0))
+  if (not along)
   {
     r.turn = c.m_R - c.m_T;
     return r;
@@ -236,8 +241,10 @@ struct Rate
   /// @param[in] e void ratio
   /// @param[in] h intergranular strain; not looked at without it
   /// @param[in] D strain rate; `size` its norm
+  /// @param[in] along of `grains`
   void evaluate(const Sand& c, const Tensor<N>& T, double e,
-                const Tensor<N>& h, const Tensor<N>& D, double size);
+                const Tensor<N>& h, const Tensor<N>& D, double size,
+                bool along);
 
   /// The derivatives, with the same arguments.
   void slopes(const Sand& c, const Tensor<N>& T, const Tensor<N>& D,
@@ -268,7 +275,7 @@ private:
 template <int N, bool with_grains>
 void Rate<N, with_grains>::evaluate(const Sand& c, const Tensor<N>& T, double e,
                                     const Tensor<N>& h, const Tensor<N>& D,
-                                    double size)
+                                    double size, bool along)
 {
   const Tensor<N> one = unit<N>();
   const double tr = trace<N>(T);
@@ -279,10 +286,10 @@ void Rate<N, with_grains>::evaluate(const Sand& c, const Tensor<N>& T, double e,
   lode = hypoplasticity::lode<N>(Td);
   if constexpr (with_grains)
   {
-    grains = hypoplasticity::grains<N>(c, h, D);
+    grains = hypoplasticity::grains<N>(c, h, D, along);
     _g = grains.stiff * D
          + (grains.turn * grains.w * grains.s) * grains.hd;
-    _k = grains.s > 0 ? grains.w * grains.s : 0;
+    _k = along ? grains.w * grains.s : 0;
   }
   else
   {
@@ -357,9 +364,8 @@ void Rate<N, with_grains>::grain_slopes(const Sand& c, const Tensor2<N>& L,
 {
   const auto& r = grains;
   const Tensor<N> Lh = L * r.hd;
-  const bool along = r.s > 0;
   Tensor<N> by_s = (r.turn * r.w) * Lh; // of hd : D
-  if (along)
+  if (r.along)
     by_s += r.w * n;
   out.by_D = r.stiff * L;
   out.by_D.noalias() += by_s * r.hd.transpose();
@@ -371,7 +377,7 @@ void Rate<N, with_grains>::grain_slopes(const Sand& c, const Tensor2<N>& L,
     return;
   }
   Tensor<N> by_w = (c.m_T - c.m_R) * (L * D) + (r.turn * r.s) * Lh;
-  if (along)
+  if (r.along)
     by_w += r.s * n;
   const double size = r.rho * c.R;
   const Tensor<N> across = D - r.s * r.hd;
@@ -380,7 +386,7 @@ void Rate<N, with_grains>::grain_slopes(const Sand& c, const Tensor2<N>& L,
       = ((c.chi * r.w / size) * by_w - turn * Lh) * r.hd.transpose();
   out.by_h.noalias() += (by_s / size) * across.transpose();
   out.by_h += turn * L;
-  if (not along)
+  if (not r.along)
   {
     out.h_by_h.setZero();
     return;

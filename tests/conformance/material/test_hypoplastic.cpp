@@ -67,7 +67,7 @@ TEST_CASE("hypoplastic: rates at a general state, all six components",
     law.intergranular_strain = "off";
     const auto c = law.constants();
     hypoplasticity::Rate<6, false> rate;
-    rate.evaluate(c, T, 0.8, Tensor6::Zero(), D, D.norm());
+    rate.evaluate(c, T, 0.8, Tensor6::Zero(), D, D.norm(), true);
     check(rate.stress / kPa,
           six(-960.937338, 3292.458288, 3292.458288, -893.961854, -178.792371,
               0),
@@ -84,7 +84,7 @@ TEST_CASE("hypoplastic: rates at a general state, all six components",
   SECTION("intergranular strain zero")
   {
     hypoplasticity::Rate<6, true> rate;
-    rate.evaluate(law.constants(), T, 0.8, Tensor6::Zero(), D, D.norm());
+    rate.evaluate(law.constants(), T, 0.8, Tensor6::Zero(), D, D.norm(), true);
     check(rate.stress / kPa,
           six(-2114.062143, 2161.384636, 2161.384636, -272.708213, -54.541643,
               0),
@@ -95,7 +95,7 @@ TEST_CASE("hypoplastic: rates at a general state, all six components",
   {
     const Tensor6 h = mandel(six(-6e-5, 3e-5, 1e-5, 1e-5, 0, 0));
     hypoplasticity::Rate<6, true> rate;
-    rate.evaluate(law.constants(), T, 0.8, h, D, D.norm());
+    rate.evaluate(law.constants(), T, 0.8, h, D, D.norm(), true);
     check(rate.stress / kPa,
           six(-1962.127982, 2296.786953, 2301.605416, -353.394536, -70.197061,
               0),
@@ -114,7 +114,7 @@ TEST_CASE("hypoplastic: stiffness at an axial state",
   const auto c = law.constants();
   const hypoplasticity::Tensor<4> T(-80e3, -200e3, -80e3, 0);
   hypoplasticity::Rate<4, false> rate;
-  rate.evaluate(c, T, 0.70, T, hypoplasticity::Tensor<4>::Zero(), 0);
+  rate.evaluate(c, T, 0.70, T, hypoplasticity::Tensor<4>::Zero(), 0, true);
   const auto L = (rate.stiffest(c) / kPa).eval();
   CHECK_THAT(c.a, WithinAbs(2.7607190781, 0.51e-10));
   CHECK_THAT(rate.lode.F, WithinAbs(1, 1e-14));
@@ -126,7 +126,7 @@ TEST_CASE("hypoplastic: stiffness at an axial state",
   CHECK_THAT(L(0, 0), WithinAbs(19845.748933, 0.51e-6));
   CHECK_THAT(L(0, 2), WithinAbs(5426.883459, 0.51e-6));
   // f_d N is what the rate for D = 0 and |D| = 1 leaves
-  rate.evaluate(c, T, 0.70, T, hypoplasticity::Tensor<4>::Zero(), 1);
+  rate.evaluate(c, T, 0.70, T, hypoplasticity::Tensor<4>::Zero(), 1, true);
   CHECK_THAT(rate.stress[0] / kPa, WithinAbs(3945.826637, 0.51e-6));
   CHECK_THAT(rate.stress[1] / kPa, WithinAbs(27620.786459, 0.51e-6));
 }
