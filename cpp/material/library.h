@@ -4,6 +4,7 @@
 #include "drucker_prager.h"
 #include "elastic.h"
 #include "herschel_bulkley.h"
+#include "hypoplastic.h"
 #include "j2.h"
 #include "mohr_coulomb.h"
 #include "newtonian.h"
@@ -16,8 +17,9 @@ namespace mmale::material
 {
 /// Every law. A new one is its file and its name here; the scene reader and
 /// the conformance tests walk this list.
-using AnyLaw = std::variant<Elastic, J2, DruckerPrager, MohrCoulomb, Newtonian,
-                            HerschelBulkley, Rigid, Void>;
+using AnyLaw =
+    std::variant<Elastic, J2, DruckerPrager, MohrCoulomb, Hypoplastic,
+                 Newtonian, HerschelBulkley, Rigid, Void>;
 
 /// Names, parameters and ranges of all laws, for the scene reader.
 std::vector<scene::LawInfo> law_infos();
