@@ -114,8 +114,7 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
   state.density.resize(cells);
   state.history.assign(h * cells * points, 0);
   const bool has_floor = std::visit(
-      []<class L>(const L&)
-      { return L::yields and not material::LinearPressure<L>; }, law);
+      []<class L>(const L&) { return not material::LinearPressure<L>; }, law);
   state.apex.assign(has_floor ? cells : 0, 0);
   for (std::size_t c = 0; c < cells; ++c)
   {

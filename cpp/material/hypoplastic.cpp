@@ -113,10 +113,9 @@ End bring_down(const Track& track, double gap, const Tensor& gap_D)
   return out;
 }
 
-/// @param[in] s0 deviator at the start, Mandel [Pa]
-/// @param[in] G  shear modulus at the start [Pa]
-void give(const End& end, const Tensor& s0, const Tensor& de, double G,
-          Response& answer)
+/// No plastic flow for the bubble: in ground the gradient of p is in balance
+/// with that of the deviator too, so its total must not drive a bubble.
+void give(const End& end, Response& answer)
 {
   const auto engineering = [](Tensor x)
   {
@@ -131,22 +130,6 @@ void give(const End& end, const Tensor& s0, const Tensor& de, double G,
   answer.ds_dtheta = engineering(end.s_D * one / 3);
   answer.dp_de = engineering(end.p_D);
   answer.dp_dtheta = end.p_D.dot(one) / 3;
-
-  // 2 G times the part of the shear strain that left no stress, along s
-  constexpr double max_flow = 10; // a bubble has nothing left to stabilise
-  const double size2 = end.s.squaredNorm();
-  if (not(size2 > 0))
-    return;
-  const Tensor left = 2 * G * de - (end.s - s0);
-  const double flow = left.dot(end.s) / size2;
-  answer.flow = std::clamp(flow, 0.0, max_flow);
-  if (not(flow > 0 and flow < max_flow))
-    return;
-  const Tensor along = (left - (1 + 2 * flow) * end.s) / size2;
-  Tensor flow_D = end.s_D.transpose() * along;
-  answer.dflow_dtheta = flow_D.dot(one) / 3;
-  flow_D += (2 * G / size2) * end.s;
-  answer.dflow_de = engineering(flow_D);
 }
 } // namespace
 
@@ -342,7 +325,6 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
   if (not(task.D.allFinite() and s0.allFinite() and std::isfinite(p0)
           and e > 0))
     return Outcome::reduce_step;
-  const double G = moduli(start, step.dt).G;
   const double soft = apex_stiffness * p_min;
   const double stiff = p0 < p_min ? closing_stiffness(c, e) : 0;
   const Apex apex = approach(c, p0, e, theta, soft, stiff);
@@ -355,7 +337,7 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
       end.s_D = s0 * (end.p_D / p0).transpose();
     }
     end.p -= p_t;
-    give(end, s0, de, G, answer);
+    give(end, answer);
     answer.effort.apex = 1;
     q[0] = hypoplasticity::void_ratio(task, 1);
     return Outcome::ok;
@@ -381,7 +363,7 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
   }
   End end = bring_down(track, gap + soft * track.opened, gap_D);
   end.p -= p_t;
-  give(end, s0, de, G, answer);
+  give(end, answer);
   answer.effort = track.effort;
   answer.effort.apex = track.effort.apex or p0 < p_min;
   q[0] = hypoplasticity::void_ratio(task, 1);

@@ -29,7 +29,7 @@ struct Hypoplastic
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "hypoplastic";
   static constexpr std::string_view set_key = "sand";
-  static constexpr bool symmetric = false, yields = true, fluid = false;
+  static constexpr bool symmetric = false, yields = false, fluid = false;
 
   double phi_c_deg = required; ///< critical friction angle [degrees]
   double h_s = required;       ///< granulate hardness [Pa]
