@@ -55,6 +55,18 @@ inline const std::vector<Sample> samples{
        {"density", 1.0}}},
      1.5e-3,
      6e-7},
+    {{"umat",
+      {{"states", 0}, {"density", 1e3}},
+      {{"library", UMATS "elastic.so"}},
+      {{"props", {2.6e6, 0.3}}}},
+     1e-2,
+     1e-2},
+    {{"umat",
+      {{"states", 1}, {"density", 7.8e3}},
+      {{"library", UMATS "mises.so"}},
+      {{"props", {2.1e11, 0.29, 3e8, 4e9}}}},
+     1.9e-3,
+     2e-3},
 };
 
 /// Random numbers that any machine draws alike.
