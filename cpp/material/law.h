@@ -185,6 +185,17 @@ struct ListParameter
   std::string_view meaning;
 };
 
+/// Mass density of a point at the start [kg/m3]: the law's `density`, or what it
+/// makes of other numbers.
+template <class L>
+double initial_density(const L& law, const Start& at)
+{
+  if constexpr (requires { law.initial_density(at); })
+    return law.initial_density(at);
+  else
+    return law.density;
+}
+
 template <class L>
 concept MaterialLaw =
     std::is_aggregate_v<L>
@@ -198,7 +209,7 @@ concept MaterialLaw =
           // the deviator depends on the rate of strain alone
           { L::fluid } -> std::convertible_to<bool>;
           { L::parameters[0] } -> std::convertible_to<Parameter<L>>;
-          { law.density } -> std::convertible_to<double>;
+          { initial_density(law, Start{}) } -> std::same_as<double>;
           { law.history() } -> std::same_as<std::vector<HistoryField>>;
           // history of a point at the start of a run
           law.begin(Start{}, q);

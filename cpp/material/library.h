@@ -2,6 +2,7 @@
 #pragma once
 
 #include "elastic.h"
+#include "hypoplastic.h"
 #include "j2.h"
 #include "scene/parameter.h"
 #include "umat.h"
@@ -11,7 +12,7 @@ namespace mmale::material
 {
 /// Every law. A new one is its file and its name here; the scene reader and
 /// the conformance tests walk this list.
-using AnyLaw = std::variant<Elastic, J2, Umat>;
+using AnyLaw = std::variant<Elastic, J2, Hypoplastic, Umat>;
 
 /// Names, parameters and ranges of all laws, for the scene reader.
 std::vector<scene::LawInfo> law_infos();
