@@ -119,12 +119,19 @@ void check_initial(const Initial& i, Complaints& out)
 void unwrap_material(scene::Document& document)
 {
   const auto at = document.root.entries.find("material");
-  if (at == document.root.entries.end())
+  if (at == document.root.entries.end() or at->second.entries.empty())
     return;
-  auto& entries = at->second.entries;
-  if (entries.size() == 1
-      and entries.begin()->second.kind == scene::Node::Kind::table)
-    at->second = scene::Node(entries.begin()->second);
+  std::vector<std::string> names;
+  for (const auto& [name, node] : at->second.entries)
+    if (node.kind == scene::Node::Kind::table)
+      names.push_back(name);
+  if (names.size() < at->second.entries.size())
+    return;
+  if (names.size() > 1)
+    document.complaints.push_back(
+        {"material", "an element test has one, these are " + scene::join(names),
+         at->second.place});
+  at->second = scene::Node(at->second.entries.begin()->second);
 }
 } // namespace
 

@@ -33,9 +33,35 @@ std::string text_of(const std::vector<scene::Complaint>& complaints)
 }
 } // namespace
 
+TEST_CASE(
+    "a sand whose name is not known is told alone, not what it would have "
+    "brought",
+    "[element]")
+{
+  const std::string text =
+      "[material]\nlaw = \"hypoplastic\"\nsand = \"hochsteten\"\n"
+      "intergranular_strain = \"on\"\nvoid_ratio = 0.7\n"
+      "grain_density = 2650\n"
+      + isotropic_start + "[[path]]\nkind = \"oedometric\"\neps_a = 0.01\n";
+  const auto said =
+      mmale::element::read(text, "test.toml", {}, libraries()).complaints;
+  REQUIRE(said.size() == 1);
+  CHECK(to_string(said[0]).starts_with(
+      "test.toml:3: material.sand: unknown 'hochsteten', did you mean "
+      "'hochstetten'? (known: "));
+}
+
 TEST_CASE("bad tests: each gets all of its complaints, word by word",
           "[element]")
 {
+  // a few laws, so that a new one does not change the texts
+  scene::Libraries few = libraries();
+  std::erase_if(few.laws,
+                [](const scene::LawInfo& law)
+                {
+                  return law.name != "elastic" and law.name != "j2"
+                         and law.name != "umat";
+                });
   int seen = 0;
   for (const auto& entry : fs::directory_iterator(BAD_TESTS))
   {
@@ -44,8 +70,8 @@ TEST_CASE("bad tests: each gets all of its complaints, word by word",
       continue;
     INFO(path.filename());
     ++seen;
-    const Reading reading = mmale::element::read(
-        content(path), path.filename().string(), {}, libraries());
+    const Reading reading =
+        mmale::element::read(content(path), path.filename().string(), {}, few);
     const std::string expected =
         content(fs::path(path).replace_extension(".txt"));
     CHECK(not expected.empty());
