@@ -201,6 +201,8 @@ Result run(const Test& test, const Options& options)
                 .checks_hold = output::all_hold(summary.checks)};
   for (const auto& name : names)
     result.last[name] = curves.column(name).back();
+  for (const output::Deviation& d : summary.data)
+    result.last["rms_" + d.column] = d.rms;
   return result;
 }
 

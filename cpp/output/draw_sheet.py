@@ -121,7 +121,13 @@ def draw_sheets(runs, plan, sheet, file):
         for handle, label in zip(*ax.get_legend_handles_labels()):
             handles.setdefault(label, handle)
     if len(handles) > 1:
-        axes[0, 0].legend(handles.values(), handles.keys(), fontsize=8)
+        figure.legend(
+            handles.values(),
+            handles.keys(),
+            fontsize=8,
+            ncols=min(len(handles), 4),
+            loc="outside lower center",
+        )
     figure.suptitle(plan["title"], fontsize=11, x=0.01, ha="left")
     save(figure, file)
 
