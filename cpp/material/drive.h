@@ -113,6 +113,8 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
     const double digits = std::abs(r.dp_dtheta * theta.x()) * 1e-15;
     if (LinearPressure<L> or std::abs(excess) <= tolerance + digits)
     {
+      if (not(r.dp_dtheta < 0)) // against the contract, as a umat may be
+        return Outcome::reduce_step;
       answer.s = r.s;
       answer.theta = theta.x();
       answer.flow = r.flow;

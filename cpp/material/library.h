@@ -10,6 +10,7 @@
 #include "newtonian.h"
 #include "rigid.h"
 #include "scene/parameter.h"
+#include "umat.h"
 #include "void.h"
 #include <variant>
 
@@ -19,7 +20,7 @@ namespace mmale::material
 /// the conformance tests walk this list.
 using AnyLaw =
     std::variant<Elastic, J2, DruckerPrager, MohrCoulomb, Hypoplastic,
-                 Newtonian, HerschelBulkley, Rigid, Void>;
+                 Newtonian, HerschelBulkley, Rigid, Void, Umat>;
 
 /// Names, parameters and ranges of all laws, for the scene reader.
 std::vector<scene::LawInfo> law_infos();
@@ -27,7 +28,8 @@ std::vector<scene::LawInfo> law_infos();
 /// A law filled from a scene that has no complaints left: defaults, then the
 /// parameter set if one is named, then what is written.
 ///
-/// @throws std::invalid_argument for an unknown law, set or parameter
+/// @throws std::invalid_argument for an unknown law, set or parameter, or a
+///         library that cannot be loaded
 AnyLaw make_law(const scene::Material& material);
 
 /// Numbers of a point's history.

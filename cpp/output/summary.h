@@ -17,6 +17,15 @@
 /// as such, and again at the end; each time whole or not at all.
 namespace mmale::output
 {
+/// A column of a test against measured points.
+struct Deviation
+{
+  std::string column, abscissa;
+  int points = 0;  ///< compared
+  int outside = 0; ///< where the test does not come
+  double rms = 0;  ///< root mean square of test less data
+};
+
 struct Summary
 {
   std::string title;
@@ -40,6 +49,7 @@ struct Summary
   std::string scene; ///< as understood, JSON text
   Ledger ledger;
   std::vector<Timing> timers;
+  std::vector<Deviation> data; ///< left out when empty
 
   /// Compiler and MMALE; the caller adds what else it is linked with.
   static std::map<std::string, std::string> library_versions();

@@ -241,6 +241,18 @@ void check_kind(const std::string& name, const std::vector<std::string>& wanted,
                  {}});
 }
 
+/// Does the known material that is named bring this number? One whose name
+/// is not known has its complaint already.
+bool by_set(const Material& material, const LawInfo& law, const SetInfo* set,
+            const std::string& name)
+{
+  if (set)
+    return given(set->values, name);
+  return not law.set_key.empty() and given(material.texts, law.set_key)
+         and std::ranges::any_of(law.sets, [&name](const SetInfo& s)
+                                 { return given(s.values, name); });
+}
+
 void check_numbers(const Material& material, const LawInfo& law,
                    const SetInfo* set, const std::string& key, Complaints& out)
 {
@@ -253,7 +265,7 @@ void check_numbers(const Material& material, const LawInfo& law,
       const bool wrong_kind =
           given(material.texts, p.name) or given(material.lists, p.name);
       if (p.is_required() and not wrong_kind
-          and not(set and given(set->values, p.name)))
+          and not by_set(material, law, set, p.name))
         out.push_back({key + "." + p.name,
                        missing(p.sentence, p.unit, p.range.words()) + " (law "
                            + law.name + ")",

@@ -170,6 +170,18 @@ inline const std::vector<Sample> samples{
      1e-4,
      2e-5,
      3e4},
+    {{"umat",
+      {{"states", 0}, {"density", 1e3}},
+      {{"library", UMATS "elastic.so"}},
+      {{"props", {2.6e6, 0.3}}}},
+     1e-2,
+     1e-2},
+    {{"umat",
+      {{"states", 1}, {"density", 7.8e3}},
+      {{"library", UMATS "mises.so"}},
+      {{"props", {2.1e11, 0.29, 3e8, 4e9}}}},
+     1.9e-3,
+     2e-3},
 };
 
 /// Random numbers that any machine draws alike.
