@@ -98,6 +98,9 @@ scene::LawInfo info_of()
   for (const Parameter<L>& p : L::parameters)
     info.parameters.push_back({std::string(p.name), std::string(p.unit),
                                p.range, L{}.*p.value, std::string(p.meaning)});
+  info.void_ratio = std::ranges::any_of(
+      L{}.history(),
+      [](const HistoryField& field) { return field.name == "void_ratio"; });
   if constexpr (HasTexts<L>)
     for (const TextParameter<L>& t : L::texts)
       info.texts.push_back(
