@@ -391,22 +391,18 @@ std::vector<output::NamedField> Monitor::fields()
   out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
   out.push_back({"stress", Location::cell, 4, stress, "Pa"});
   out.push_back({"density", Location::cell, 1, state.density, "kg/m3"});
-  std::visit(
-      [&](const auto& law)
-      {
-        // history numbers come apart, one field each
-        const std::size_t h = law.history.size();
-        const auto means = cell_mean(state.history, h);
-        history.resize(h * cells);
-        for (std::size_t k = 0; k < h; ++k)
-        {
-          for (std::size_t c = 0; c < cells; ++c)
-            history[k * cells + c] = means[h * c + k];
-          out.push_back({std::string(law.history[k]), Location::cell, 1,
-                         std::span(history).subspan(k * cells, cells), ""});
-        }
-      },
-      *_sim.law);
+  // history numbers come apart, one field each
+  const auto names = material::history_names(*_sim.law);
+  const std::size_t h = names.size();
+  const auto means = cell_mean(state.history, h);
+  history.resize(h * cells);
+  for (std::size_t k = 0; k < h; ++k)
+  {
+    for (std::size_t c = 0; c < cells; ++c)
+      history[k * cells + c] = means[h * c + k];
+    out.push_back({names[k], Location::cell, 1,
+                   std::span(history).subspan(k * cells, cells), ""});
+  }
   return out;
 }
 } // namespace mmale

@@ -337,7 +337,7 @@ void Run::enter_stage()
   _marks = marks(_begin, stage.duration);
   _control.emplace(stage, _marks);
   if (_sim.problem)
-    _sim.problem->set_stage(stage);
+    _sim.problem->set_stage(stage, _sim.state);
 }
 
 /// One step; false when it fails at the floor.

@@ -87,7 +87,7 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
   if (not scene.motion)
   {
     const auto& material = scene.material.begin()->second;
-    law = material::make_law(material.law, material.parameters);
+    law = material::make_law(material);
     problem = std::make_unique<lagrangian::Problem>(
         domain, *law, scene.symmetry, scene.solver, clock);
     state.p.assign(nodes, 0);
@@ -98,7 +98,15 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
     for (std::size_t i = 0; i < 2 * nodes; ++i)
       state.v[i] = scene.initial.velocity[i % 2];
     state.density.assign(cells, problem->element().density());
-    state.history.assign(cells * points * problem->element().num_history(), 0);
+    const std::size_t h = problem->element().num_history();
+    state.history.resize(cells * points * h);
+    std::visit(
+        [&](const auto& l)
+        {
+          for (std::size_t q = 0; q < cells * points; ++q)
+            l.begin({}, std::span(state.history).subspan(h * q, h));
+        },
+        *law);
   }
   if (scene.remap.mode != scene::RemapMode::lagrangian)
     remap = std::make_unique<bridge::RemapStep>(domain, scene, law, clock);

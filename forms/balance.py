@@ -8,7 +8,8 @@
 
 with f = rho g, and dp, df the increments of the step. The bubble is a Maxwell
 element: elastic it sees the increments only (a held load does not creep), in
-plastic flow (lambda > 0) the total too (the pressure stays smooth).
+plastic flow (lambda > 0) the total too (the pressure stays smooth). In a fluid it
+moves at the velocity u_b / dt against the total alone, and mu is viscosity / dt.
 
 The laws enter as numbers per cell, with their derivatives for the tangent, which
 is Newton's: `derivative` takes care of all that depends on w, so an added term
@@ -49,6 +50,7 @@ s = Coefficient(per_cell(5))  # stress deviator [Pa]
 theta = Coefficient(per_cell())  # volume strain that the law needs for p [-]
 ln_J = Coefficient(per_cell())  # volume strain of the cell [-]
 mu = Coefficient(per_cell())  # shear modulus at the start of the step [Pa]
+memory = Coefficient(per_cell())  # 1, or 0 of a fluid: nothing holds its bubble
 lam = Coefficient(per_cell())  # plastic flow over the step, 2 G dLambda [-]
 rho = Coefficient(per_cell())  # density [kg/m3]
 # Tangent of the laws, by the gradient h of a variation du, and by p.
@@ -72,8 +74,8 @@ def residual(axisymmetric):
     h, h_b, e_b = (gradient(z, r, axisymmetric) for z in (v, v_b, u_b))
     momentum = inner(s, h) - p * divergence(h) - rho * dot(g, v)
     volume = q * (theta - ln_J)
-    drive = p - p_n + lam * p
-    force = rho * (g - g_n + lam * g)
+    drive = p - memory * p_n + lam * p
+    force = rho * (g - memory * g_n + lam * g)
     stabilise = (
         2 * mu * inner(deviator(strain(e_b)), strain(h_b))
         - drive * divergence(h_b)

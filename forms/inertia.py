@@ -6,7 +6,7 @@ acceleration, velocity and pressure rate at the end of the step as lines,
 
     a = a_0 + c_a u,    v = v_0 + c_v u,    dp/dt = r_0 + c_r p.
 
-    bubble, layout mean         rho (a - a_n + lambda a + c_a u_b) . v_b
+    bubble, layout mean         rho (a - a_n + lambda a + c_a u_b) . v_b    (a fluid: no a_n)
     damping                     b (2 mu dev D(v) - dp/dt I) : grad v
 
 The bubbles of layout `quadrature` have none. They hold a stress from step to step
@@ -14,7 +14,7 @@ but no velocity, and the lumped nodes do not feel them: forces on the bubble alo
 would give it energy that nothing has lost.
 """
 
-from balance import dlam_dh, dlam_dp, lam, mu, rho, w
+from balance import dlam_dh, dlam_dp, lam, memory, mu, rho, w
 from mini import (
     B,
     V,
@@ -59,7 +59,7 @@ def bubble_mean(axisymmetric):
     u, _, u_b = split(ufl.split(w))
     _, _, v_b = split(TestFunctions(W))
     a = a_0 + c_a * u
-    return rho * dot(a - a_n + lam * a + c_a * u_b, v_b) * r * dx_bubble
+    return rho * dot(a - memory * a_n + lam * a + c_a * u_b, v_b) * r * dx_bubble
 
 
 def damping(axisymmetric):

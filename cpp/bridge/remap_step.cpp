@@ -185,9 +185,7 @@ make_points(const mesh::Domain& domain, const scene::Scene& scene,
 
 int history_numbers(const std::optional<material::AnyLaw>& law)
 {
-  return law ? std::visit([](const auto& l)
-                          { return static_cast<int>(l.history.size()); }, *law)
-             : 0;
+  return law ? material::num_history(*law) : 0;
 }
 } // namespace
 
@@ -357,7 +355,7 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
         for (int q = 0; q < state.points * domain.num_cells(); ++q)
         {
           const double part = l.admit(
-              Eigen::Map<material::Voigt>(state.s.data() + 4 * q),
+              Eigen::Map<material::Voigt>(state.s.data() + 4 * q), state.P[q],
               std::span(state.history)
                   .subspan(static_cast<std::size_t>(history) * q, history));
           if (q < owned)

@@ -170,8 +170,9 @@ void Problem::rebalance(State& state, double t)
   std::ranges::copy(_constants.g, _constants.g_n);
   _constants.b = _newmark->scheme().damping_stiffness;
   _newmark->freeze(state);
-  _loads.begin_step(_conditions->loads(t), &*_newmark);
-  _element->begin_step();
+  _loads.begin_step(_conditions->loads(t), &*_newmark,
+                    [this](int cell) { return impedance(cell); });
+  _element->begin_step(state, 0);
   if (not evaluate())
     throw std::runtime_error("no balance at t = " + std::to_string(state.time)
                              + " s: " + _failure.cause);

@@ -12,24 +12,76 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
                  int points)
     : _domain(domain), _law(law),
       _axisymmetric(symmetry == scene::Symmetry::axisymmetric),
-      _options(options), _num_points(points),
-      _num_history(std::visit([](const auto& l)
-                              { return static_cast<int>(l.history.size()); },
-                              law)),
+      _options(options),
+      _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
+      _num_points(points), _num_history(material::num_history(law)),
       _volume(domain.num_owned_cells),
       _history(static_cast<std::size_t>(_num_history) * points
-               * domain.num_owned_cells)
+               * domain.num_owned_cells),
+      _G(domain.num_owned_cells)
 {
+  int at = 0;
+  for (const material::HistoryField& field :
+       std::visit([](const auto& l) { return l.history(); }, law))
+  {
+    if (field.size == 4)
+      _tensors.push_back(at);
+    at += field.size;
+  }
 }
 
-double Element::shear_modulus() const
+void Element::begin_step(const State& state, double dt)
 {
-  return std::visit([](const auto& l) { return l.shear_modulus(); }, _law);
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    _G[c] = moduli(state, c, dt).G;
 }
 
-double Element::bulk_modulus() const
+material::Moduli Element::moduli(const State& state, int c, double dt) const
 {
-  return std::visit([](const auto& l) { return l.bulk_modulus(); }, _law);
+  material::Moduli mean{0, 0};
+  std::visit(
+      [&](const auto& law)
+      {
+        for (int q = c * _num_points; q < (c + 1) * _num_points; ++q)
+        {
+          const auto [G, K] = law.moduli(point(state, q), dt);
+          mean.G += G / _num_points;
+          mean.K += K / _num_points;
+        }
+      },
+      _law);
+  return mean;
+}
+
+material::Point Element::point(const State& state, int q) const
+{
+  return {
+      Voigt(state.s.data() + 4 * q), state.P[q],
+      std::span(state.history)
+          .subspan(static_cast<std::size_t>(_num_history) * q, _num_history)};
+}
+
+material::TangentKind Element::tangent_kind() const
+{
+  switch (_options.tangent)
+  {
+  case scene::Tangent::continuum:
+    return material::TangentKind::continuum;
+  case scene::Tangent::robust:
+    return material::TangentKind::robust;
+  default:
+    return material::TangentKind::consistent;
+  }
+}
+
+void Element::turn_history(std::span<double> q, double cosine,
+                           double sine) const
+{
+  for (int at : _tensors)
+  {
+    Eigen::Map<Voigt> t(q.data() + at);
+    t = rotate(Voigt(t), cosine, sine);
+  }
 }
 
 bool Element::symmetric() const

@@ -25,8 +25,8 @@ public:
   /// Inertia in the steps to come, or none; kept by reference.
   void set_newmark(const Newmark* newmark) { _newmark = newmark; }
 
-  /// A step begins: nothing is left of the last one.
-  virtual void begin_step() {}
+  /// A Newton run begins: nothing is left of the last one.
+  virtual void begin_step(const State& state, double dt);
 
   /// A Newton iteration begins at the unknowns last evaluated.
   virtual void begin_iteration(std::span<const double>) {}
@@ -84,9 +84,13 @@ public:
 
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
-  double shear_modulus() const;
-  double bulk_modulus() const;
   double density() const;
+
+  /// Moduli of a cell as it is: means over its points [Pa].
+  material::Moduli moduli(const State& state, int cell, double dt) const;
+
+  /// What the laws' last answers took, of the owned cells.
+  virtual material::Effort effort() const = 0;
 
 protected:
   Element(const mesh::Domain& domain, const material::AnyLaw& law,
@@ -102,13 +106,24 @@ protected:
   void gather_nodes(const State& state, int cell, std::span<const double> z,
                     double* w, double* x) const;
 
+  material::TangentKind tangent_kind() const;
+
+  /// A point of the state, all points counted through.
+  material::Point point(const State& state, int q) const;
+
+  /// Turn the tensors in the history of a point by the half step's rotation.
+  void turn_history(std::span<double> q, double cosine, double sine) const;
+
   const mesh::Domain& _domain;
   const material::AnyLaw& _law;
   bool _axisymmetric;
   scene::Solver _options;
+  bool _fluid; ///< its deviator has no memory
   int _num_points, _num_history;
+  std::vector<int> _tensors; ///< where in the history one begins
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
+  std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]
 };
 
 /// The element of the scene's layout.

@@ -28,6 +28,7 @@ std::vector<Offer> offers(const CellInput*)
           {"theta", offsetof(CellInput, theta), 1},
           {"ln_J", offsetof(CellInput, ln_J), 1},
           {"mu", offsetof(CellInput, mu), 1},
+          {"memory", offsetof(CellInput, memory), 1},
           {"lam", offsetof(CellInput, lam), 1},
           {"rho", offsetof(CellInput, rho), 1},
           {"ds_dh", offsetof(CellInput, ds_dh), 25},

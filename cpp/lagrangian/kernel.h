@@ -25,7 +25,7 @@ struct CellInput
   double w[11];   ///< u, p of three vertices, bubble; end of the step
   double w_n[11]; ///< at its start
   double s[5];
-  double theta, ln_J, mu, lam, rho;
+  double theta, ln_J, mu, memory, lam, rho;
   double ds_dh[25];
   double ds_dp[5];
   double dtheta_dh[5];

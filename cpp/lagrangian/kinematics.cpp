@@ -41,7 +41,7 @@ Gradient2 geometric_stiffness(const Voigt& s, double p)
 }
 } // namespace
 
-CellTangent tangent(const Gradient& G, const Motion& m, const Response& law,
+CellTangent tangent(const Gradient& G, const Motion& m, const Driven& law,
                     const Voigt& s, double p, bool geometric)
 {
   const Gradient2 Q = mid_from_end(G);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "material/law.h"
+#include "material/drive.h"
 #include <Eigen/Core>
 #include <cmath>
 
@@ -14,7 +14,7 @@
 /// @source Hughes & Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862
 namespace mmale::lagrangian
 {
-using material::Response;
+using material::Driven;
 using material::Voigt;
 using material::Voigt2;
 
@@ -92,6 +92,6 @@ struct CellTangent
 /// @param[in] s         deviator at the end, law.s rotated by half a step [Pa]
 /// @param[in] p         pressure at the end [Pa]
 /// @param[in] geometric with the change of the integration domain
-CellTangent tangent(const Gradient& G, const Motion& m, const Response& law,
+CellTangent tangent(const Gradient& G, const Motion& m, const Driven& law,
                     const Voigt& s, double p, bool geometric);
 } // namespace mmale::lagrangian

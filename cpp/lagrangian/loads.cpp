@@ -25,13 +25,8 @@ Loads::Loads(const mesh::Domain& domain, scene::Symmetry symmetry)
 {
 }
 
-void Loads::set_impedance(double normal, double across)
-{
-  _impedance[0] = normal;
-  _impedance[1] = across;
-}
-
-void Loads::begin_step(std::vector<Load> loads, const Newmark* newmark)
+void Loads::begin_step(std::vector<Load> loads, const Newmark* newmark,
+                       const Impedance& impedance)
 {
   _newmark = newmark;
   _facets.clear();
@@ -44,8 +39,9 @@ void Loads::begin_step(std::vector<Load> loads, const Newmark* newmark)
         loaded.constants.p_a = load.pressure;
         if (loaded.dashpots)
         {
-          loaded.constants.z_p = _impedance[0];
-          loaded.constants.z_s = _impedance[1];
+          const auto [normal, across] = impedance(f.cell);
+          loaded.constants.z_p = normal;
+          loaded.constants.z_s = across;
           loaded.constants.c_v = newmark->c_v;
         }
         _facets.push_back(loaded);

@@ -4,6 +4,7 @@
 #include "conditions.h"
 #include "kernel.h"
 #include "newmark.h"
+#include <functional>
 
 namespace mmale::lagrangian
 {
@@ -14,12 +15,14 @@ class Loads
 public:
   Loads(const mesh::Domain& domain, scene::Symmetry symmetry);
 
-  /// Impedances of absorbing boundaries [Pa s/m]: along the normal, across.
-  void set_impedance(double normal, double across);
+  /// Impedances of a cell [Pa s/m]: along the normal, across.
+  using Impedance = std::function<std::array<double, 2>(int)>;
 
   /// Loads of a step. Facets of cells that belong to other ranks are left out.
-  /// @param[in] newmark of the step, or none; kept by reference
-  void begin_step(std::vector<Load> loads, const Newmark* newmark);
+  /// @param[in] newmark   of the step, or none; kept by reference
+  /// @param[in] impedance asked for at absorbing boundaries
+  void begin_step(std::vector<Load> loads, const Newmark* newmark,
+                  const Impedance& impedance);
 
   /// Add to the residual; shape (nodes, 3), ghosts are the caller's to send.
   void add_residual(const State& state, std::span<const double> z,
@@ -41,7 +44,6 @@ private:
 
   const mesh::Domain& _domain;
   Kernel _R, _J, _R_dashpots, _J_dashpots;
-  double _impedance[2] = {0, 0};
   const Newmark* _newmark = nullptr;
   std::vector<Loaded> _facets; ///< ascending by cell
 };

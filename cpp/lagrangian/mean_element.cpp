@@ -5,6 +5,7 @@
 #include "inertia.h"
 #include "mesh/corners.h"
 #include <algorithm>
+#include <limits>
 
 namespace mmale::lagrangian
 {
@@ -50,63 +51,91 @@ double MeanElement::strain_squared(int c) const
          + cell.answer.theta * cell.answer.theta;
 }
 
-int MeanElement::evaluate(const State& state, std::span<const double> z,
-                          const Constants&, std::string& why)
+material::Effort MeanElement::effort() const
 {
-  const auto kind = _options.tangent == scene::Tangent::consistent
-                        ? material::TangentKind::consistent
-                        : material::TangentKind::continuum;
-  std::ranges::copy(std::span(state.history).first(_history.size()),
-                    _history.begin());
+  material::Effort sum;
+  for (const Cell& cell : _cell)
+    sum += cell.answer.effort;
+  return sum;
+}
+
+void MeanElement::begin_step(const State& state, double dt)
+{
+  Element::begin_step(state, dt);
+  for (Cell& cell : _cell)
+    cell.guess = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Strain and pressure of a cell; what is wrong with it, or null.
+const char* MeanElement::strain_cell(const State& state, int c,
+                                     std::span<const double> z)
+{
+  Cell& cell = _cell[c];
+  double w[11] = {}, x[9] = {};
+  std::array<double, 6> end;
+  cell.p = 0;
+  for (int v = 0; v < 3; ++v)
+  {
+    const int n = _domain.cells[c][v];
+    for (int d = 0; d < 2; ++d)
+    {
+      w[3 * v + d] = z[3 * n + d];
+      x[3 * v + d] = state.x[2 * n + d] + 0.5 * z[3 * n + d];
+      end[2 * v + d] = state.x[2 * n + d] + z[3 * n + d];
+    }
+    cell.p += z[3 * n + 2] / 3;
+  }
+  mid_gradient<1>(_axisymmetric, w, x, cell.G.data());
+  cell.motion = motion(cell.G);
+  _volume[c] = mesh::triangle_volume(end, _axisymmetric);
+  const bool sound = _volume[c] > 0 and std::isfinite(cell.motion.ln_J)
+                     and std::isfinite(cell.p);
+  return sound ? nullptr : "the cell would invert";
+}
+
+int MeanElement::evaluate(const State& state, std::span<const double> z,
+                          const Constants& constants, std::string& why)
+{
+  const auto kind = tangent_kind();
+  std::vector<double> turned(_num_history);
+  const auto answer = [&](const auto& law, int c)
+  {
+    Cell& cell = _cell[c];
+    const Motion& m = cell.motion;
+    const auto at = static_cast<std::size_t>(_num_history) * c;
+    const auto q = std::span(_history).subspan(at, _num_history);
+    std::copy_n(state.history.begin() + at, _num_history, turned.begin());
+    turn_history(turned, m.cosine, m.sine);
+    const material::Point start{
+        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine), state.P[c],
+        turned};
+    if (material::drive(law, start, m.de, cell.p, constants.dt, cell.guess,
+                        kind, q, cell.answer)
+        != Outcome::ok)
+      return "the law asks for a smaller step";
+    turn_history(q, m.cosine, m.sine);
+    cell.guess = cell.answer.theta;
+    if (not _options.plastic_bubble)
+    {
+      cell.answer.flow = cell.answer.dflow_dp = 0;
+      cell.answer.dflow_de.setZero();
+    }
+    cell.s = rotate(cell.answer.s, m.cosine, m.sine);
+    return static_cast<const char*>(nullptr);
+  };
   return std::visit(
       [&](const auto& law)
       {
         for (int c = 0; c < _domain.num_owned_cells; ++c)
         {
-          Cell& cell = _cell[c];
-          double w[11] = {}, x[9] = {};
-          std::array<double, 6> end;
-          cell.p = 0;
-          for (int v = 0; v < 3; ++v)
+          const char* trouble = strain_cell(state, c, z);
+          if (not trouble)
+            trouble = answer(law, c);
+          if (trouble)
           {
-            const int n = _domain.cells[c][v];
-            for (int d = 0; d < 2; ++d)
-            {
-              w[3 * v + d] = z[3 * n + d];
-              x[3 * v + d] = state.x[2 * n + d] + 0.5 * z[3 * n + d];
-              end[2 * v + d] = state.x[2 * n + d] + z[3 * n + d];
-            }
-            cell.p += z[3 * n + 2] / 3;
-          }
-          mid_gradient<1>(_axisymmetric, w, x, cell.G.data());
-          cell.motion = motion(cell.G);
-          _volume[c] = mesh::triangle_volume(end, _axisymmetric);
-          if (not(_volume[c] > 0) or not std::isfinite(cell.motion.ln_J)
-              or not std::isfinite(cell.p))
-          {
-            why = "the cell would invert";
+            why = trouble;
             return c;
           }
-          const Motion& m = cell.motion;
-          const material::Increment step{
-              rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine), m.de,
-              state.P[c], cell.p};
-          if (law.update(
-                  step, kind,
-                  std::span(_history).subspan(
-                      static_cast<std::size_t>(_num_history) * c, _num_history),
-                  cell.answer)
-              != Outcome::ok)
-          {
-            why = "the law asks for a smaller step";
-            return c;
-          }
-          if (not _options.plastic_bubble)
-          {
-            cell.answer.flow = cell.answer.dflow_dp = 0;
-            cell.answer.dflow_de.setZero();
-          }
-          cell.s = rotate(cell.answer.s, m.cosine, m.sine);
         }
         return -1;
       },
@@ -124,7 +153,8 @@ void MeanElement::gather(const State& state, int c, std::span<const double> z,
   Gradient::Map(in.s) = expand(cell.s);
   in.theta = cell.answer.theta;
   in.ln_J = cell.motion.ln_J;
-  in.mu = shear_modulus();
+  in.mu = _G[c];
+  in.memory = _fluid ? 0 : 1;
   in.lam = cell.answer.flow;
   in.rho = state.density[c] * std::exp(-cell.motion.ln_J);
   if (_newmark)

@@ -16,6 +16,7 @@ public:
   MeanElement(const mesh::Domain& domain, const material::AnyLaw& law,
               scene::Symmetry symmetry, const scene::Solver& options);
 
+  void begin_step(const State& state, double dt) override;
   int evaluate(const State& state, std::span<const double> z,
                const Constants& c, std::string& why) override;
   void residual(const State& state, int cell, std::span<const double> z,
@@ -32,15 +33,17 @@ public:
   std::array<double, 2> mismatch_squared(const State& state,
                                          int cell) const override;
   double strain_squared(int cell) const override;
+  material::Effort effort() const override;
 
 private:
   struct Cell
   {
     Gradient G;
     Motion motion;
-    material::Response answer;
-    Voigt s;  ///< deviator at the end, turned
-    double p; ///< mean pressure at the end
+    material::Driven answer;
+    double guess; ///< of the volume strain, or NaN
+    Voigt s;      ///< deviator at the end, turned
+    double p;     ///< mean pressure at the end
   };
   /// The kernels that dynamics adds.
   struct Inertia
@@ -48,6 +51,8 @@ private:
     Kernel R, J, B, R_damping, J_damping;
   };
   void accept_stress(State& state) const override;
+  const char* strain_cell(const State& state, int cell,
+                          std::span<const double> z);
   void gather(const State& state, int cell, std::span<const double> z,
               CellInput& in, double* x) const;
   void add_tangent(int cell, CellInput& in) const;

@@ -5,6 +5,7 @@
 #include "mesh/corners.h"
 #include "points.h"
 #include <algorithm>
+#include <limits>
 
 namespace mmale::lagrangian
 {
@@ -60,10 +61,23 @@ PointElement<n>::PointElement(const mesh::Domain& domain,
 }
 
 template <int n>
-void PointElement<n>::begin_step()
+material::Effort PointElement<n>::effort() const
 {
+  material::Effort sum;
+  for (const Cell& cell : _cell)
+    for (const Point& point : cell.point)
+      sum += point.answer.effort;
+  return sum;
+}
+
+template <int n>
+void PointElement<n>::begin_step(const State& state, double dt)
+{
+  Element::begin_step(state, dt);
   for (Cell& cell : _cell)
   {
+    for (Point& point : cell.point)
+      point.guess = std::numeric_limits<double>::quiet_NaN();
     std::ranges::fill(cell.bubble, 0.0);
     cell.has_blocks = false;
   }
@@ -144,30 +158,31 @@ const char* PointElement<n>::strain_cell(const State& state, int c,
 /// null.
 template <int n>
 const char* PointElement<n>::answer(const State& state, int c,
-                                    std::span<const double> z)
+                                    std::span<const double> z, double dt)
 {
-  const auto kind = _options.tangent == scene::Tangent::consistent
-                        ? material::TangentKind::consistent
-                        : material::TangentKind::continuum;
   if (const char* trouble = strain_cell(state, c, z))
     return trouble;
-  const std::size_t first = static_cast<std::size_t>(n) * c;
-  std::copy_n(state.history.begin() + _num_history * first, _num_history * n,
-              _history.begin() + _num_history * first);
+  const auto kind = tangent_kind();
+  std::vector<double> turned(_num_history);
   const auto update = [&](const auto& law)
   {
-    for (int q = 0; q < n; ++q)
+    for (int q = n * c; q < n * (c + 1); ++q)
     {
-      Point& point = _cell[c].point[q];
+      Point& point = _cell[c].point[q - n * c];
       const Motion& m = point.motion;
-      const std::size_t at = first + q;
-      const material::Increment step{
-          rotate(Voigt(state.s.data() + 4 * at), m.cosine, m.sine), m.de,
-          state.P[at], point.p};
-      const auto history =
-          std::span(_history).subspan(_num_history * at, _num_history);
-      if (law.update(step, kind, history, point.answer) != Outcome::ok)
+      const auto at = static_cast<std::size_t>(_num_history) * q;
+      const auto history = std::span(_history).subspan(at, _num_history);
+      std::copy_n(state.history.begin() + at, _num_history, turned.begin());
+      turn_history(turned, m.cosine, m.sine);
+      const material::Point start{
+          rotate(Voigt(state.s.data() + 4 * q), m.cosine, m.sine), state.P[q],
+          turned};
+      if (material::drive(law, start, m.de, point.p, dt, point.guess, kind,
+                          history, point.answer)
+          != Outcome::ok)
         return "the law asks for a smaller step";
+      turn_history(history, m.cosine, m.sine);
+      point.guess = point.answer.theta;
       point.s = rotate(point.answer.s, m.cosine, m.sine);
     }
     return static_cast<const char*>(nullptr);
@@ -184,7 +199,7 @@ const char* PointElement<n>::balance_bubble(const State& state, int c,
   Cell& cell = _cell[c];
   for (int it = 0; it < max_bubble_iterations; ++it)
   {
-    if (const char* trouble = answer(state, c, z))
+    if (const char* trouble = answer(state, c, z, constants.dt))
       return trouble;
     PointInput<n> in;
     double x[9], R[11] = {}, A[121];
@@ -234,7 +249,7 @@ void PointElement<n>::gather(const State& state, int c,
     Gradient::Map(in.s + 5 * q) = expand(point.s);
     in.excess[q] = point.answer.theta - point.motion.ln_J;
   }
-  in.mu = shear_modulus();
+  in.mu = _G[c];
   in.rho = state.density[c] * std::exp(-cell.ln_J);
   if (_newmark)
     gather_newmark(state, c, in.newmark);
@@ -381,7 +396,7 @@ double PointElement<n>::strain_squared(int c) const
 template <int n>
 double PointElement<n>::size_squared(int c) const
 {
-  double sum = std::pow(1e-12 * shear_modulus(), 2);
+  double sum = std::pow(1e-12 * _G[c], 2);
   for (const Point& point : _cell[c].point)
     sum += (std::pow(material::norm(point.s), 2) + point.p * point.p) / n;
   const double side = std::pow(_volume[c], _axisymmetric ? 2. / 3 : 0.5);

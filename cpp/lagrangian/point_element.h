@@ -24,7 +24,7 @@ public:
   PointElement(const mesh::Domain& domain, const material::AnyLaw& law,
                scene::Symmetry symmetry, const scene::Solver& options);
 
-  void begin_step() override;
+  void begin_step(const State& state, double dt) override;
   void begin_iteration(std::span<const double> z) override;
   int evaluate(const State& state, std::span<const double> z,
                const Constants& c, std::string& why) override;
@@ -42,6 +42,7 @@ public:
   std::array<double, 2> mismatch_squared(const State& state,
                                          int cell) const override;
   double strain_squared(int cell) const override;
+  material::Effort effort() const override;
 
 private:
   /// Of a bubble's equation; elastic cells take one. Doubled: nothing.
@@ -53,9 +54,10 @@ private:
   {
     Gradient G;
     Motion motion;
-    material::Response answer;
-    Voigt s;  ///< deviator at the end, turned
-    double p; ///< pressure at the end
+    material::Driven answer;
+    double guess; ///< of the volume strain, or NaN
+    Voigt s;      ///< deviator at the end, turned
+    double p;     ///< pressure at the end
   };
   struct Cell
   {
@@ -73,7 +75,8 @@ private:
   void accept_stress(State& state) const override;
   Numbers9 nodal(int cell, std::span<const double> z) const;
   void foresee_bubble(Cell& cell, const Numbers9& z) const;
-  const char* answer(const State& state, int c, std::span<const double> z);
+  const char* answer(const State& state, int c, std::span<const double> z,
+                     double dt);
   const char* balance_bubble(const State& state, int c,
                              std::span<const double> z,
                              const Constants& constants);

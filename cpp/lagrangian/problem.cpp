@@ -34,13 +34,10 @@ Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
                  output::Clock& clock)
     : _domain(domain), _symmetry(symmetry), _options(options), _clock(clock),
       _element(make_element(domain, law, symmetry, options)),
-      _loads(domain, symmetry), _stress(_element->shear_modulus()),
-      _length(mean_edge(domain)), _increment(3 * domain.num_nodes(), 0),
-      _z(node_map(domain), 3), _force(node_map(domain), 3)
+      _loads(domain, symmetry), _length(mean_edge(domain)),
+      _increment(3 * domain.num_nodes(), 0), _z(node_map(domain), 3),
+      _force(node_map(domain), 3)
 {
-  const double rho = _element->density(), G = _element->shear_modulus();
-  _loads.set_impedance(std::sqrt(rho * (_element->bulk_modulus() + 4 * G / 3)),
-                       std::sqrt(rho * G));
 }
 
 Problem::~Problem()
@@ -52,8 +49,39 @@ Problem::~Problem()
   VecDestroy(&_unlifted);
 }
 
-void Problem::set_stage(const scene::Stage& stage)
+void Problem::set_scales(const State& state, double dt)
 {
+  double sum[3] = {0, 0, static_cast<double>(_domain.num_owned_cells)};
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+  {
+    const auto [G, K] = _element->moduli(state, c, dt);
+    sum[0] += G;
+    sum[1] += K;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  _stress = sum[0] / sum[2];
+  _bulk = sum[1] / sum[2];
+}
+
+/// Of a cell as it was when the step began.
+std::array<double, 2> Problem::impedance(int c) const
+{
+  const auto [G, K] = _element->moduli(*_state, c, _constants.dt);
+  const double rho = _state->density[c];
+  return {std::sqrt(rho * (K + 4 * G / 3)), std::sqrt(rho * G)};
+}
+
+material::Effort Problem::effort() const
+{
+  const material::Effort e = _element->effort();
+  std::array<long, 4> sum{e.substeps, e.rejected, e.apex, e.clipped};
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 4, MPI_LONG, MPI_SUM, _domain.comm);
+  return {sum[0], sum[1], sum[2], sum[3]};
+}
+
+void Problem::set_stage(const scene::Stage& stage, const State& state)
+{
+  set_scales(state, stage.step);
   _conditions.emplace(_domain, stage);
   _contact.emplace(_domain, *_conditions);
   _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
@@ -122,7 +150,7 @@ void Problem::assemble_residual(double* r)
   // pressure at rest, and of the displacement in flight
   const double last_digits =
       4 * std::numeric_limits<double>::epsilon() / _options.tolerance;
-  const double of_p = last_digits / _element->bulk_modulus();
+  const double of_p = last_digits / _bulk;
   const double of_u = _newmark ? last_digits / _length : 0;
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
@@ -235,7 +263,8 @@ void Problem::prepare(const State& state, double t0, double t1)
                     _constants.g_n);
   if (_newmark)
     begin_newmark(state);
-  _loads.begin_step(_conditions->loads(t1), _newmark ? &*_newmark : nullptr);
+  _loads.begin_step(_conditions->loads(t1), _newmark ? &*_newmark : nullptr,
+                    [this](int cell) { return impedance(cell); });
 }
 
 /// What is held in this step: the stage's conditions, and contact.
@@ -282,7 +311,7 @@ bool Problem::newton(NewtonLog& log)
   log.failure = {};
   _log = &log;
   _failed = false;
-  _element->begin_step();
+  _element->begin_step(*_state, _constants.dt);
   SNESSolve(_snes, nullptr, _x);
   PetscInt iterations = 0;
   SNESGetIterationNumber(_snes, &iterations);
@@ -339,6 +368,8 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
 
 void Problem::keep(output::Archive& archive)
 {
+  archive("lagrangian/stress", _stress);
+  archive("lagrangian/bulk", _bulk);
   archive("lagrangian/guess_dt", _guess_dt);
   archive("lagrangian/gravity", _gravity);
   if (_guess_dt > 0)

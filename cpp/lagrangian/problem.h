@@ -48,8 +48,8 @@ public:
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
 
-  /// Boundary conditions and inertia of the stage to come. Collective.
-  void set_stage(const scene::Stage& stage);
+  /// Boundary conditions, inertia and scales of the stage to come. Collective.
+  void set_stage(const scene::Stage& stage, const State& state);
 
   /// What the state needs in a stage that begins now: a dynamic one starts with
   /// the accelerations of balance, at rest after a static one. Collective.
@@ -82,6 +82,9 @@ public:
 
   const Element& element() const { return *_element; }
 
+  /// What the laws took in the last step. Collective.
+  material::Effort effort() const;
+
   /// What steers the steps to come, besides the state; after `set_stage`.
   void keep(output::Archive& archive);
 
@@ -101,6 +104,8 @@ private:
     int row, column; ///< local unknowns, scaled
     double value;
   };
+  void set_scales(const State& state, double dt);
+  std::array<double, 2> impedance(int cell) const;
   void choose_solver();
   void scale(int cell, double* A);
   void lift(Vec b);
@@ -143,7 +148,9 @@ private:
   output::Clock& _clock;
   std::unique_ptr<Element> _element;
   Loads _loads;
-  double _stress, _length; ///< scales [Pa], [m]
+  double _stress = 1; ///< scale: the cells' mean shear modulus [Pa]
+  double _bulk = 1;   ///< their mean bulk modulus [Pa]
+  double _length;     ///< scale [m]
 
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;

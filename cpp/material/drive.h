@@ -26,6 +26,11 @@ struct Driven
   Effort effort;
 };
 
+/// A law may say `static constexpr bool linear_pressure = true`: p falls by
+/// K theta, K that of `moduli`, whatever else happens. It is then asked once.
+template <class L>
+concept LinearPressure = requires { requires L::linear_pressure; };
+
 /// From derivatives at fixed theta to those at fixed p.
 inline void turn_derivatives(const Response& law, Driven& answer)
 {
@@ -95,12 +100,13 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
               double dt, double guess, TangentKind kind, std::span<double> q,
               Driven& answer)
 {
-  constexpr int max_evaluations = 40;
+  constexpr int max_evaluations = LinearPressure<L> ? 1 : 40;
   // p has been summed from numbers of this size
   const double tolerance =
       1e-13 * (std::abs(p) + std::abs(start.p) + norm(start.s));
-  FallingRoot theta(std::isnan(guess) ? -(p - start.p) / law.moduli(start, dt).K
-                                      : guess);
+  if (LinearPressure<L> or std::isnan(guess))
+    guess = -(p - start.p) / law.moduli(start, dt).K;
+  FallingRoot theta(guess);
   Response r;
   answer.effort = {};
   for (int i = 0; i < max_evaluations; ++i)
@@ -114,12 +120,17 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
     answer.effort += r.effort;
     const double excess = r.p - p;
     const double digits = std::abs(r.dp_dtheta * theta.x()) * 1e-15;
-    if (std::abs(excess) <= tolerance + digits)
+    if (LinearPressure<L> or std::abs(excess) <= tolerance + digits)
     {
       answer.s = r.s;
       answer.theta = theta.x();
       answer.flow = r.flow;
       turn_derivatives(r, answer);
+      if constexpr (not LinearPressure<L>) // the last digits
+      {
+        answer.theta -= excess * answer.dtheta_dp;
+        answer.s -= excess * answer.ds_dp;
+      }
       return Outcome::ok;
     }
     theta.next(excess, r.dp_dtheta);

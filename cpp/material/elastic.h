@@ -12,6 +12,7 @@ struct Elastic
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "elastic";
   static constexpr bool symmetric = true, yields = false, fluid = false;
+  static constexpr bool linear_pressure = true;
 
   double E = required;       ///< Young's modulus [Pa]
   double nu = required;      ///< Poisson ratio [-]

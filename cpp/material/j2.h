@@ -15,6 +15,7 @@ struct J2
   static constexpr double required = scene::required;
   static constexpr std::string_view name = "j2";
   static constexpr bool symmetric = true, yields = true, fluid = false;
+  static constexpr bool linear_pressure = true;
 
   double E = required;            ///< Young's modulus [Pa]
   double nu = required;           ///< Poisson ratio [-]

@@ -58,10 +58,10 @@ struct Strain
 /// What an update took, to be counted and reported.
 struct Effort
 {
-  int substeps = 0; ///< taken
-  int rejected = 0; ///< and taken back
-  int apex = 0;     ///< updates that met the zero-stress floor
-  int clipped = 0;  ///< void ratio or intergranular strain cut to its range
+  long substeps = 0; ///< taken
+  long rejected = 0; ///< and taken back
+  long apex = 0;     ///< updates that met the zero-stress floor
+  long clipped = 0;  ///< void ratio or intergranular strain cut to its range
 
   Effort& operator+=(const Effort& o)
   {

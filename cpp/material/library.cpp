@@ -145,12 +145,21 @@ AnyLaw make_law(const scene::Material& material)
   return *made;
 }
 
-int num_history(const AnyLaw& law)
+std::vector<std::string> history_names(const AnyLaw& law)
 {
-  int sum = 0;
+  std::vector<std::string> names;
   for (const HistoryField& field :
        std::visit([](const auto& l) { return l.history(); }, law))
-    sum += field.size;
-  return sum;
+    if (field.size == 1)
+      names.push_back(field.name);
+    else
+      for (const char* component : {"_xx", "_yy", "_zz", "_xy"})
+        names.push_back(field.name + component);
+  return names;
+}
+
+int num_history(const AnyLaw& law)
+{
+  return static_cast<int>(history_names(law).size());
 }
 } // namespace mmale::material

@@ -23,4 +23,7 @@ AnyLaw make_law(const scene::Material& material);
 
 /// Numbers of a point's history.
 int num_history(const AnyLaw& law);
+
+/// Names of these numbers; a tensor has four, ending in _xx, _yy, _zz, _xy.
+std::vector<std::string> history_names(const AnyLaw& law);
 } // namespace mmale::material

@@ -192,19 +192,53 @@ const SetInfo* check_set(const Material& material, const LawInfo& law,
   return nullptr;
 }
 
-/// Complain of a name that the law does not have as this kind of value.
-void check_kind(const auto& table, const std::vector<std::string>& wanted,
-                const std::vector<std::string>& known, const char* kind,
-                const LawInfo& law, const std::string& key, Complaints& out)
+/// The keys that a law takes, by the kind of their values.
+struct LawKeys
 {
-  for (const auto& [name, value] : table)
-    if (std::ranges::find(known, name) == known.end())
-      out.push_back(
-          {key + "." + name,
-           "unknown for law '" + law.name + "', " + suggestion(name, known),
-           {}});
-    else if (std::ranges::find(wanted, name) == wanted.end())
-      out.push_back({key + "." + name, std::string("must not be ") + kind, {}});
+  std::vector<std::string> numbers, texts, lists;
+
+  explicit LawKeys(const LawInfo& law)
+  {
+    for (const ParameterInfo& p : law.parameters)
+      numbers.push_back(p.name);
+    if (not law.set_key.empty())
+      texts.push_back(law.set_key);
+    for (const TextInfo& t : law.texts)
+      texts.push_back(t.name);
+    for (const ListInfo& l : law.lists)
+      lists.push_back(l.name);
+  }
+
+  std::vector<std::string> all() const
+  {
+    std::vector<std::string> known = numbers;
+    known.insert(known.end(), texts.begin(), texts.end());
+    known.insert(known.end(), lists.begin(), lists.end());
+    known.push_back("law");
+    return known;
+  }
+};
+
+/// What is wrong with a key of a law whose value is `is`; nothing if it is
+/// among the wanted ones.
+void check_kind(const std::string& name, const std::vector<std::string>& wanted,
+                const std::string& is, const LawInfo& law,
+                const std::string& key, Complaints& out)
+{
+  const LawKeys keys(law);
+  const auto in = [&name](const std::vector<std::string>& list)
+  { return std::ranges::find(list, name) != list.end(); };
+  if (in(wanted))
+    return;
+  const char* kind = in(keys.numbers) ? "a number"
+                     : in(keys.texts) ? "a text"
+                     : in(keys.lists) ? "a list of numbers"
+                                      : nullptr;
+  out.push_back({key + "." + name,
+                 kind ? std::format("must be {}, is {}", kind, is)
+                      : "unknown for law '" + law.name + "', "
+                            + suggestion(name, keys.all()),
+                 {}});
 }
 
 void check_numbers(const Material& material, const LawInfo& law,
@@ -246,22 +280,13 @@ void check_parameters(const Material& material, const LawInfo& law,
       out.push_back({key + "." + t.name,
                      missing(t.sentence, "", "") + " (law " + law.name + ")",
                      {}});
-  std::vector<std::string> numbers, texts, lists;
-  for (const ParameterInfo& p : law.parameters)
-    numbers.push_back(p.name);
-  for (const TextInfo& t : law.texts)
-    texts.push_back(t.name);
-  if (not law.set_key.empty())
-    texts.push_back(law.set_key);
-  for (const ListInfo& l : law.lists)
-    lists.push_back(l.name);
-  std::vector<std::string> known = numbers;
-  known.insert(known.end(), texts.begin(), texts.end());
-  known.insert(known.end(), lists.begin(), lists.end());
-  known.push_back("law");
-  check_kind(material.parameters, numbers, known, "a number", law, key, out);
-  check_kind(material.texts, texts, known, "a text", law, key, out);
-  check_kind(material.lists, lists, known, "a list", law, key, out);
+  const LawKeys keys(law);
+  for (const auto& [name, x] : material.parameters)
+    check_kind(name, keys.numbers, std::format("{}", x), law, key, out);
+  for (const auto& [name, text] : material.texts)
+    check_kind(name, keys.texts, "the text \"" + text + "\"", law, key, out);
+  for (const auto& [name, list] : material.lists)
+    check_kind(name, keys.lists, "a list", law, key, out);
   if (out.size() == before and law.complaints)
     for (const std::string& complaint : law.complaints(material))
       out.push_back({key, complaint, {}});

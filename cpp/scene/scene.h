@@ -211,8 +211,9 @@ enum class Layout
 
 enum class Tangent
 {
-  consistent,
-  continuum
+  consistent, ///< derivative of the update
+  continuum,  ///< derivative of the rate equations
+  robust      ///< the law's stiffest
 };
 
 /// How Newton's matrix is factorised.

@@ -67,7 +67,7 @@ const std::vector<std::string>& names()
   }
   else if constexpr (std::same_as<E, Tangent>)
   {
-    static const Names list = {"consistent", "continuum"};
+    static const Names list = {"consistent", "continuum", "robust"};
     return list;
   }
   else if constexpr (std::same_as<E, Factorisation>)

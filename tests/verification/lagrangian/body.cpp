@@ -19,7 +19,7 @@ struct Body::Parts
                                          scene.solver))
   {
     constants.spring = scene.solver.bubble_spring;
-    element->begin_step();
+    element->begin_step(sim.state, 1);
   }
   scene::Scene scene;
   Simulation sim;
@@ -70,7 +70,7 @@ int Body::node(double x, double y) const
 
 void Body::set_stage(const scene::Stage& stage)
 {
-  _parts->sim.problem->set_stage(stage);
+  _parts->sim.problem->set_stage(stage, state());
   _parts->sim.problem->begin_stage(state());
 }
 
@@ -165,7 +165,7 @@ void Body::full(int c, std::span<const double> z, std::span<double> R,
 void Body::accept(std::span<const double> z)
 {
   _parts->element->accept(state(), z, 1);
-  _parts->element->begin_step();
+  _parts->element->begin_step(state(), 1);
 }
 
 double Body::volume(int c) const
