@@ -89,7 +89,7 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
     const auto& material = scene.material.begin()->second;
     law = material::make_law(material);
     problem = std::make_unique<lagrangian::Problem>(
-        domain, *law, scene.symmetry, scene.solver, clock);
+        domain, *law, scene.symmetry, scene.solver, scene.water, clock);
     state.p.assign(nodes, 0);
     const std::size_t points = problem->element().num_points();
     state.points = static_cast<int>(points);
@@ -97,16 +97,16 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
     state.P.assign(cells * points, 0);
     for (std::size_t i = 0; i < 2 * nodes; ++i)
       state.v[i] = scene.initial.velocity[i % 2];
-    state.density.assign(cells, problem->element().density());
+    if (scene.water and scene.water->seepage())
+      state.p_w.assign(nodes, 0);
+    state.density.assign(cells, 0);
     const std::size_t h = problem->element().num_history();
     state.history.resize(cells * points * h);
-    std::visit(
-        [&](const auto& l)
-        {
-          for (std::size_t q = 0; q < cells * points; ++q)
-            l.begin({}, std::span(state.history).subspan(h * q, h));
-        },
-        *law);
+    for (std::size_t q = 0; q < cells * points; ++q)
+      state.density[q / points] +=
+          problem->element().begin({},
+                                   std::span(state.history).subspan(h * q, h))
+          / points;
   }
   if (scene.remap.mode != scene::RemapMode::lagrangian)
     remap = std::make_unique<bridge::RemapStep>(domain, scene, law, clock);

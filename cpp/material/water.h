@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "law.h"
+#include "drive.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -169,6 +169,8 @@ struct Undrained
 template <class L>
 struct Seeping
 {
+  static constexpr bool linear_pressure = LinearPressure<L>;
+
   const L& law;
   const Water& water;
   double p_w; ///< at the end of the step [Pa]

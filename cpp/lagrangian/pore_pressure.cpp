@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "seepage.h"
+#include "pore_pressure.h"
 
 #include <algorithm>
 #include <numbers>
@@ -15,15 +15,15 @@ node_map(const mesh::Domain& domain)
 }
 } // namespace
 
-Seepage::Seepage(const mesh::Domain& domain, scene::Symmetry symmetry,
-                 const scene::Water& water)
+PorePressure::PorePressure(const mesh::Domain& domain, scene::Symmetry symmetry,
+                           const scene::Water& water)
     : _domain(domain), _symmetry(symmetry), _water(water),
       _holder(domain.num_nodes(), -1), _prescribed(domain.num_nodes(), 0),
       _p_w(node_map(domain), 1), _residual(node_map(domain), 1)
 {
 }
 
-void Seepage::set_stage(const scene::Stage& stage)
+void PorePressure::set_stage(const scene::Stage& stage)
 {
   _series.clear();
   _held.clear();
@@ -51,8 +51,8 @@ void Seepage::set_stage(const scene::Stage& stage)
                                   { return entry.second.seepage_face; });
 }
 
-void Seepage::begin(std::span<const double> p_w, double t1, double dt,
-                    double length)
+void PorePressure::begin(std::span<const double> p_w, double t1, double dt,
+                         double length)
 {
   std::ranges::fill(_holder, -1);
   _dt = dt;
@@ -67,7 +67,7 @@ void Seepage::begin(std::span<const double> p_w, double t1, double dt,
   }
 }
 
-bool Seepage::update()
+bool PorePressure::update()
 {
   // Owners decide; ghosts follow.
   std::vector<double> held(_domain.num_nodes(), 0);
@@ -98,7 +98,7 @@ bool Seepage::update()
   return true;
 }
 
-std::vector<double> Seepage::discharge() const
+std::vector<double> PorePressure::discharge() const
 {
   std::vector<double> sum(_domain.boundary_names.size(), 0);
   const double turn =

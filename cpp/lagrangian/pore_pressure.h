@@ -14,12 +14,11 @@
 /// of this.
 namespace mmale::lagrangian
 {
-class Seepage
+class PorePressure
 {
 public:
-  /// @param[in] pressure,length sizes of a problem's unknowns [Pa], [m]
-  Seepage(const mesh::Domain& domain, scene::Symmetry symmetry,
-          const scene::Water& water);
+  PorePressure(const mesh::Domain& domain, scene::Symmetry symmetry,
+               const scene::Water& water);
 
   const scene::Water& water() const { return _water; }
 
