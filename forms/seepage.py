@@ -16,7 +16,7 @@ makes the mass that stands before dp_w in sum a lumped one. It moves no water ou
 a cell. With consistent storage instead, for comparison, `C` is added.
 """
 
-from balance import (
+from balance import (  # noqa: F401; FFCx finds coefficients by their names here
     dlam_dp,
     ds_dp,
     dt,
@@ -26,13 +26,16 @@ from balance import (
     g_n,
     lam,
     ln_J,
+    memory,
+    mu,
     residual,
+    rho,
     s,
     theta,
     w,
     w_n,
 )
-from inertia import a_0, bubble_mean, c_a
+from inertia import a_0, a_n, bubble_mean, c_a  # noqa: F401
 from mini import Q, W, divergence, dx, gradient, mesh, per_cell, split, x
 from ufl import (
     Coefficient,

@@ -16,8 +16,7 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
       _options(options),
       _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
       _num_points(points),
-      _num_history(material::num_history(law)
-                   + (water ? material::Water::num_history : 0)),
+      _num_history(material::num_history(law, water.has_value())),
       _volume(domain.num_owned_cells),
       _history(static_cast<std::size_t>(_num_history) * points
                * domain.num_owned_cells),
@@ -129,10 +128,19 @@ FlowTangent Element::flow_tangent(const State&, int, std::span<const double>,
   throw std::logic_error("this layout has no seepage");
 }
 
+double Element::driven_pressure(const State& state, int q) const
+{
+  if (not _flows)
+    return state.P[q];
+  const auto h = static_cast<std::size_t>(_num_history);
+  return state.P[q]
+         - material::pores(std::span(state.history).subspan(h * q, h)).p_w;
+}
+
 material::Point Element::point(const State& state, int q) const
 {
   return {
-      Voigt(state.s.data() + 4 * q), state.P[q],
+      Voigt(state.s.data() + 4 * q), driven_pressure(state, q),
       std::span(state.history)
           .subspan(static_cast<std::size_t>(_num_history) * q, _num_history)};
 }

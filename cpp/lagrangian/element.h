@@ -172,6 +172,10 @@ protected:
         _law);
   }
 
+  /// Pressure of a point by which its medium is driven: the total one, or the
+  /// effective one where the water flows [Pa].
+  double driven_pressure(const State& state, int q) const;
+
   /// A point of the state, all points counted through.
   material::Point point(const State& state, int q) const;
 

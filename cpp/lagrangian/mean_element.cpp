@@ -115,10 +115,11 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
     std::copy_n(state.history.begin() + at, _num_history, turned.begin());
     turn_history(turned, m.cosine, m.sine);
     const material::Point start{
-        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine), state.P[c],
-        turned};
-    if (material::drive(medium(pore_pressure(c)), start, m.de, cell.p,
-                        constants.dt, cell.guess, kind, q, cell.answer)
+        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine),
+        driven_pressure(state, c), turned};
+    const double p_w = pore_pressure(c); // 0 but where it flows
+    if (material::drive(medium(p_w), start, m.de, cell.p - p_w, constants.dt,
+                        cell.guess, kind, q, cell.answer)
         != Outcome::ok)
       return "the law asks for a smaller step";
     turn_history(q, m.cosine, m.sine);

@@ -35,6 +35,8 @@ void MeanElement::gather_flow(const State& state, int c,
                               double* x) const
 {
   gather(state, c, z, in.cell, x);
+  if (not _newmark)
+    in.cell.newmark = {}; // at rest
   const auto pores = material::pores(point(state, c).q);
   for (int v = 0; v < 3; ++v)
   {

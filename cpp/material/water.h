@@ -165,7 +165,8 @@ struct Undrained
   }
 };
 
-/// The same with water that flows: the nodes know its pressure.
+/// A law with water that flows: to `drive` a law like any other, in effective
+/// stress, as the nodes know the pressure of the water.
 template <class L>
 struct Seeping
 {
@@ -175,22 +176,27 @@ struct Seeping
   const Water& water;
   double p_w; ///< at the end of the step [Pa]
 
+  /// The law's part of a point whose pressure is the effective one.
+  static Point skeleton(const Point& start)
+  {
+    return {start.s, start.p,
+            start.q.first(start.q.size() - Water::num_history)};
+  }
+
   Moduli moduli(const Point& start, double dt) const
   {
-    return law.moduli(Undrained<L>::skeleton(start), dt);
+    return law.moduli(skeleton(start), dt);
   }
 
   Outcome update(const Point& start, const Strain& step, TangentKind kind,
                  std::span<double> q, Response& answer) const
   {
     const Outcome outcome =
-        law.update(Undrained<L>::skeleton(start), step, kind,
+        law.update(skeleton(start), step, kind,
                    q.first(q.size() - Water::num_history), answer);
-    if (outcome != Outcome::ok)
-      return outcome;
-    set_pores({p_w, water.porosity(pores(start.q), p_w, step.theta)}, q);
-    answer.p += p_w;
-    return Outcome::ok;
+    if (outcome == Outcome::ok)
+      set_pores({p_w, water.porosity(pores(start.q), p_w, step.theta)}, q);
+    return outcome;
   }
 };
 } // namespace mmale::material
