@@ -3,6 +3,8 @@
 
     ∫ r [ theta + stored ] + dt k/gamma_w ∇r . (∇p_w - rho_f (g - a))       = 0
 
+with p_w, g, a at the end of the step, or weighted with those at its start.
+
 theta is the skeleton's volume strain over the step, stored what water and grains
 give way by, k/gamma_w the mobility; a is the skeleton's acceleration (u-p: the
 water's own relative one is left out). Storage is lumped, that of the skeleton too:
@@ -66,6 +68,7 @@ compliance = Coefficient(per_cell())  # of the skeleton, uniaxial [1/Pa]
 mobility = Coefficient(per_cell())  # k / gamma_w [m2/(Pa s)]
 radius = Coefficient(per_cell())  # of the middle of the cell; 1 in the plane
 rho_f = Constant(mesh)  # density of the water [kg/m3]
+end = Constant(mesh)  # weight of the end of the step in the flow [-]
 
 
 def flow(axisymmetric):
@@ -73,12 +76,14 @@ def flow(axisymmetric):
     r = x[0] if axisymmetric else 1
     z = TestFunction(Q)
     u, _, _ = split(ufl.split(w))
-    a = a_0 + c_a * u
+    a = end * (a_0 + c_a * u) + (1 - end) * a_n
+    head = grad(end * p_w + (1 - end) * p_w_n)
+    weight = rho_f * (end * g + (1 - end) * g_n - a)
     rise = compliance * (p_w - p_w_n)
     return (
         z * (theta - rise) * r * dx
         + z * (stored + rise) * radius * dx_nodes
-        + dt * mobility * dot(grad(z), grad(p_w) - rho_f * (g - a)) * r * dx
+        + dt * mobility * dot(grad(z), head - weight) * r * dx
     )
 
 

@@ -102,7 +102,8 @@ const std::vector<Offer> constants{{"g", offsetof(Constants, g), 2},
                                    {"c_r", offsetof(Constants, c_r), 1},
                                    {"b", offsetof(Constants, b), 1},
                                    {"spring", offsetof(Constants, spring), 1},
-                                   {"rho_f", offsetof(Constants, rho_f), 1}};
+                                   {"rho_f", offsetof(Constants, rho_f), 1},
+                                   {"end", offsetof(Constants, end), 1}};
 
 const Offer& find(std::span<const Offer> offers, std::string_view name,
                   std::string_view what)

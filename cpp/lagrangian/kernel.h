@@ -73,6 +73,7 @@ struct Constants
   double b = 0;
   double spring = 0;
   double rho_f = 0;
+  double end = 1;
 };
 
 enum class IntegralKind

@@ -324,7 +324,11 @@ void Problem::prepare(const State& state, double t0, double t1)
   _constants = {};
   _constants.dt = t1 - t0;
   _constants.spring = _options.bubble_spring;
-  _constants.rho_f = _pore_pressure ? _pore_pressure->water().density : 0;
+  if (_pore_pressure)
+  {
+    _constants.rho_f = _pore_pressure->water().density;
+    _constants.end = _pore_pressure->water().time_weight;
+  }
   std::ranges::copy(g, _constants.g);
   std::ranges::copy(t0 > 0 ? _conditions->gravity(t0) : _gravity,
                     _constants.g_n);

@@ -131,9 +131,11 @@ struct Water
   double permeability = 0; ///< hydraulic conductivity: velocity at a hydraulic
                            ///< gradient of 1, unit weight density * 9.81 [m/s]
   std::string storage = "lumped"; ///< "consistent" oscillates in small steps
-  double frequency = 0;           ///< of the load, for the report; 0: of the
-                                  ///< shortest stage [1/s]
-  double drainage_length = 0;     ///< likewise; 0: breadth or height [m]
+  double time_weight = 1; ///< of the end of a step in the flow: 1 damps, 1/2 is
+                          ///< of order 2 and lets sudden loads swing on
+  double frequency = 0;   ///< of the load, for the report; 0: of the
+                          ///< shortest stage [1/s]
+  double drainage_length = 0; ///< likewise; 0: breadth or height [m]
 
   bool seepage() const { return drainage == "seepage"; }
   double unit_weight() const { return density * 9.81; } ///< [N/m3]

@@ -42,6 +42,11 @@ void keys(V& v, Water& w)
      {},
      storages},
     w.storage);
+  v({"time_weight",
+     "-",
+     "Weight of a step's end in the flow; 1 damps, 0.5 is of order 2.",
+     {0.5, 1, false, false}},
+    w.time_weight);
   v({"frequency", "1/s",
      "Frequency of the load for the report; 0: of the shortest stage.",
      at_least(0)},
