@@ -35,8 +35,8 @@ std::array<double, 3> shares(int points, int q)
 } // namespace
 
 Ground::Ground(const scene::Scene& scene, const mesh::Domain& domain,
-               const material::AnyLaw& law)
-    : _initial(scene.initial), _law(law),
+               const lagrangian::Element& element)
+    : _scene(scene), _element(element),
       _surface(scene.initial.surface.value_or(top_of(domain)))
 {
   if (not scene.stage.empty() and scene.stage.front().gravity)
@@ -45,7 +45,7 @@ Ground::Ground(const scene::Scene& scene, const mesh::Domain& domain,
 
 double Ground::void_ratio(double y) const
 {
-  const auto& at = _initial.void_ratio;
+  const auto& at = _scene.initial.void_ratio;
   if (at.empty())
     return scene::required;
   const double depth = _surface - y;
@@ -62,9 +62,17 @@ double Ground::void_ratio(double y) const
 
 double Ground::density(double y) const
 {
-  const material::Start at{.void_ratio = void_ratio(y)};
-  return std::visit([&](const auto& law)
-                    { return material::initial_density(law, at); }, _law);
+  std::vector<double> q(_element.num_history());
+  return _element.begin({.void_ratio = void_ratio(y)}, 0, q);
+}
+
+double Ground::pore_pressure(double y) const
+{
+  const auto& initial = _scene.initial;
+  if (not _scene.water or not initial.K0)
+    return 0;
+  return _scene.water->density * _gravity
+         * (initial.water_table.value_or(_surface) - y);
 }
 
 double Ground::vertical_stress(double y) const
@@ -73,7 +81,7 @@ double Ground::vertical_stress(double y) const
   // between these depths
   const double depth = _surface - y;
   std::vector<double> bends{0};
-  for (const auto& a : _initial.void_ratio)
+  for (const auto& a : _scene.initial.void_ratio)
     if (a.depth > 0 and a.depth < depth)
       bends.push_back(a.depth);
   bends.push_back(depth);
@@ -84,66 +92,63 @@ double Ground::vertical_stress(double y) const
     const double a = bends[i - 1], h = bends[i] - a;
     mass += h / 6 * (rho(a) + 4 * rho(a + 0.5 * h) + rho(a + h));
   }
-  return _initial.surcharge + _gravity * mass;
+  // with a table above it, water stands on the surface
+  return _scene.initial.surcharge + std::max(0.0, pore_pressure(_surface))
+         + _gravity * mass;
 }
 
-double Ground::horizontal_stress(double y) const
+double Ground::excess(double y) const
 {
-  return *_initial.K0 * vertical_stress(y);
+  // horizontal is K0 times vertical, of the effective stresses
+  const double effective = vertical_stress(y) - pore_pressure(y);
+  return _scene.initial.K0 ? effective * 2 * (1 - *_scene.initial.K0) / 3 : 0;
 }
 
 double Ground::pressure(double y) const
 {
-  if (not _initial.K0)
-    return _initial.pressure.value_or(0);
-  return (vertical_stress(y) + 2 * horizontal_stress(y)) / 3;
+  if (not _scene.initial.K0)
+    return _scene.initial.pressure.value_or(0);
+  return vertical_stress(y) - excess(y);
 }
 
 void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
-                  const material::AnyLaw& law, State& state)
+                  const lagrangian::Element& element, State& state)
 {
-  const Ground ground(scene, domain, law);
+  const Ground ground(scene, domain, element);
   const std::size_t nodes = domain.num_nodes(), cells = domain.num_cells();
   const int points = state.points;
-  const std::size_t h = material::num_history(law);
+  const std::size_t h = element.num_history();
   state.p.resize(nodes);
+  state.p_w.resize(scene.water and scene.water->seepage() ? nodes : 0);
   for (std::size_t n = 0; n < nodes; ++n)
-    state.p[n] = ground.pressure(domain.initial_x[2 * n + 1]);
+  {
+    const double y = domain.initial_x[2 * n + 1];
+    state.p[n] = ground.pressure(y);
+    if (not state.p_w.empty())
+      state.p_w[n] = ground.pore_pressure(y);
+  }
   state.s.assign(4 * cells * points, 0);
   state.P.resize(cells * points);
-  state.density.resize(cells);
+  state.density.assign(cells, 0);
   state.history.assign(h * cells * points, 0);
-  const bool has_floor = std::visit(
-      []<class L>(const L&) { return not material::LinearPressure<L>; }, law);
-  state.apex.assign(has_floor ? cells : 0, 0);
-  for (std::size_t c = 0; c < cells; ++c)
+  state.apex.assign(element.has_floor() ? cells : 0, 0);
+  for (std::size_t q = 0; q < cells * points; ++q)
   {
-    const auto height = [&](const std::array<double, 3>& share)
-    {
-      double y = 0;
-      for (int v = 0; v < 3; ++v)
-        y += share[v] * domain.initial_x[2 * domain.cells[c][v] + 1];
-      return y;
-    };
-    state.density[c] = ground.density(height(shares(1, 0)));
-    for (int k = 0; k < points; ++k)
-    {
-      const std::size_t q = points * c + k;
-      const double y = height(shares(points, k));
-      const double p = state.P[q] = ground.pressure(y);
-      if (scene.initial.K0)
-      {
-        const double down = p - ground.vertical_stress(y);
-        const double across = p - ground.horizontal_stress(y);
-        material::Voigt::Map(state.s.data() + 4 * q) << across, down, across, 0;
-      }
-      const material::Start start{p, ground.void_ratio(y)};
-      std::visit(
-          [&](const auto& l)
-          { l.begin(start, std::span(state.history).subspan(h * q, h)); }, law);
-    }
+    const std::size_t c = q / points;
+    const auto share = shares(points, static_cast<int>(q % points));
+    double y = 0;
+    for (int v = 0; v < 3; ++v)
+      y += share[v] * domain.initial_x[2 * domain.cells[c][v] + 1];
+    const double half = 0.5 * ground.excess(y), p_w = ground.pore_pressure(y);
+    state.P[q] = ground.pressure(y);
+    material::Voigt::Map(state.s.data() + 4 * q) << half, -2 * half, half, 0;
+    state.density[c] +=
+        element.begin({state.P[q] - p_w, ground.void_ratio(y)}, p_w,
+                      std::span(state.history).subspan(h * q, h))
+        / points;
   }
 }
+
 namespace
 {
 /// The first stage at its beginning: everything stands still.
@@ -184,15 +189,21 @@ double beyond_the_law(const Simulation& sim)
 {
   State copy = sim.state;
   double worst = 0;
-  const std::size_t h = material::num_history(*sim.law);
+  const std::size_t h = sim.problem->element().num_history();
+  const std::size_t own = material::num_history(*sim.law);
   std::visit(
       [&](const auto& law)
       {
         for (std::size_t q = 0; q < copy.P.size(); ++q)
-          worst = std::max(
-              worst,
+        {
+          const auto history = std::span(copy.history).subspan(h * q, h);
+          if (sim.scene.water)
+            copy.P[q] -= material::pores(history).p_w;
+          const double cut =
               law.admit(Eigen::Map<material::Voigt>(copy.s.data() + 4 * q),
-                        copy.P[q], std::span(copy.history).subspan(h * q, h)));
+                        copy.P[q], history.first(own));
+          worst = std::max(worst, cut);
+        }
       },
       *sim.law);
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, sim.domain.comm);
@@ -220,9 +231,11 @@ Balance settle(Simulation& sim)
                           .nu = (3 * K - 2 * G) / (6 * K + 2 * G),
                           .density = 0};
     State trial = state;
-    trial.history.clear();
+    trial.history.clear(); // total stress: the water stays as it is
+    trial.p_w.clear();
+    trial.apex.clear();
     lagrangian::Problem problem(sim.domain, elastic, sim.scene.symmetry,
-                                sim.scene.solver, sim.clock);
+                                sim.scene.solver, std::nullopt, sim.clock);
     problem.set_stage(stage, trial);
     problem.rest_under_gravity();
     for (int i = 0; i < max_rounds and balance.settled > 0.1 * enough; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "material/library.h"
+#include "lagrangian/element.h"
 #include "mesh/domain.h"
 #include "scene/scene.h"
 #include "state.h"
@@ -17,26 +17,28 @@ class Ground
 public:
   /// Collective.
   Ground(const scene::Scene& scene, const mesh::Domain& domain,
-         const material::AnyLaw& law);
+         const lagrangian::Element& element);
 
   /// Void ratio, or NaN where the scene leaves it to the law.
   double void_ratio(double y) const;
-  double density(double y) const;         ///< [kg/m3]
-  double vertical_stress(double y) const; ///< compression positive [Pa]
-  double horizontal_stress(double y) const;
-  double pressure(double y) const;
+  double density(double y) const;         ///< of all, water too [kg/m3]
+  double pore_pressure(double y) const;   ///< 0 without water [Pa]
+  double vertical_stress(double y) const; ///< total, compression positive [Pa]
+  double pressure(double y) const;        ///< total [Pa]
+  /// What the vertical stress exceeds the pressure by [Pa].
+  double excess(double y) const;
 
 private:
-  const scene::Initial& _initial;
-  const material::AnyLaw& _law;
+  const scene::Scene& _scene;
+  const lagrangian::Element& _element;
   double _surface;     ///< [m]
   double _gravity = 0; ///< downward [m/s2]
 };
 
-/// Stress, nodal pressure, density and history of every cell, ghosts too.
+/// Stress, nodal pressures, density and history of every cell, ghosts too.
 /// Collective.
 void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
-                  const material::AnyLaw& law, State& state);
+                  const lagrangian::Element& element, State& state);
 
 /// How far from balance the body begins.
 struct Balance

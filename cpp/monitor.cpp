@@ -67,6 +67,8 @@ Monitor::Monitor(Simulation& sim)
       _names.emplace_back(name);
   _spots = _probe.locate(_points);
   _reactions.assign(sim.domain.boundary_names.size(), {0, 0});
+  if (not sim.state.p_w.empty())
+    _discharge.assign(sim.domain.boundary_names.size(), 0);
   _start = ledger();
   _volume = volume();
 }
@@ -200,6 +202,7 @@ void Monitor::after_step(double dt)
     _lagrangian_volume += turn * sum(_sim.domain.comm, end) - _volume;
     _volume = volume();
     _reactions = _sim.problem->reactions();
+    _discharge = _sim.problem->discharge();
   }
   if (not _points.empty())
   {
@@ -226,7 +229,17 @@ double Monitor::value(const Column& c) const
   if (q.ends_with("_energy") or q.ends_with("_work"))
     return energy(q);
   if (q.starts_with("stress"))
-    return stress(c.point, q.substr(7));
+    return stress(c.point, q.substr(7), cell_stress());
+  if (q.starts_with("effective_stress"))
+    return stress(c.point, q.substr(17), effective_stress());
+  if (q == "discharge")
+    return _discharge[c.boundary];
+  if (q == "pore_pressure")
+  {
+    const auto p_w = pore_pressure();
+    return c.boundary >= 0 ? boundary_mean(c.boundary, p_w, 1, 0)
+                           : sample(p_w, 1)[c.point];
+  }
   return c.boundary >= 0 ? boundary_mean(c.boundary, state.p, 1, 0)
                          : sample(state.p, 1)[c.point];
 }
@@ -260,16 +273,66 @@ double Monitor::energy(const std::string& quantity) const
                                       : kinetic + turn * work.internal;
 }
 
-/// Component xx, yy, zz or xy of the stress in the cell around a point.
-double Monitor::stress(int point, const std::string& component) const
+/// Component xx, yy, zz or xy of a cells' stress, at a point.
+double Monitor::stress(int point, const std::string& component,
+                       std::span<const double> all) const
 {
   const std::vector<std::string> names{"xx", "yy", "zz", "xy"};
   const auto at = std::ranges::find(names, component) - names.begin();
-  const auto all = cell_stress();
   return _probe.sample(_spots, {.name = "",
                                 .location = output::Location::cell,
                                 .components = 4,
                                 .values = all})[4 * point + at];
+}
+
+/// A number of the water in the cells: 0 its pressure, 1 the porosity.
+std::vector<double> Monitor::water(std::size_t number) const
+{
+  const std::size_t h = _sim.problem->element().num_history();
+  const auto means = cell_mean(_sim.state.history, h);
+  std::vector<double> out(means.size() / h);
+  for (std::size_t c = 0; c < out.size(); ++c)
+    out[c] = means[h * c + h - 2 + number];
+  return out;
+}
+
+/// Pore pressure of the nodes: an unknown, or the mean of the corners around
+/// [Pa]. Collective.
+std::vector<double> Monitor::pore_pressure() const
+{
+  const State& state = _sim.state;
+  if (not state.p_w.empty())
+    return state.p_w;
+  const bool axisymmetric =
+      _sim.scene.symmetry == scene::Symmetry::axisymmetric;
+  auto out = mesh::lump(_sim.domain, state.x, water(0), axisymmetric);
+  const auto volume = mesh::lump(_sim.domain, state.x, {}, axisymmetric);
+  for (std::size_t n = 0; n < out.size(); ++n)
+    out[n] /= volume[n];
+  return out;
+}
+
+/// Stress that the skeleton carries, shape (cells, 4) [Pa].
+std::vector<double> Monitor::effective_stress() const
+{
+  auto stress = cell_stress();
+  const auto p_w = water(0);
+  for (std::size_t c = 0; c < p_w.size(); ++c)
+    for (int i = 0; i < 3; ++i)
+      stress[4 * c + i] += p_w[c];
+  return stress;
+}
+
+void Monitor::add_water_fields(std::vector<output::NamedField>& out)
+{
+  using output::Location;
+  auto& [p_w, porosity, effective] = _of_water;
+  p_w = pore_pressure();
+  porosity = water(1);
+  effective = effective_stress();
+  out.push_back({"pore_pressure", Location::nodal, 1, p_w, "Pa"});
+  out.push_back({"porosity", Location::cell, 1, porosity, ""});
+  out.push_back({"effective_stress", Location::cell, 4, effective, "Pa"});
 }
 
 /// Means over the points of the cells; `size` numbers a point.
@@ -353,6 +416,8 @@ void Monitor::keep(output::Archive& archive)
   archive("monitor/displacement", _displacement);
   archive("monitor/moved", _moved);
   archive("monitor/reactions", _reactions);
+  if (not _discharge.empty())
+    archive("monitor/discharge", _discharge);
   archive("monitor/volume", _volume);
   archive("monitor/lagrangian_volume", _lagrangian_volume);
   std::vector<double> start;
@@ -394,17 +459,21 @@ std::vector<output::NamedField> Monitor::fields()
   if (not state.apex.empty())
     out.push_back({"apex", Location::cell, 1, state.apex, ""});
   // history numbers come apart, one field each
-  const auto names = material::history_names(*_sim.law);
+  const auto names =
+      material::history_names(*_sim.law, _sim.scene.water.has_value());
   const std::size_t h = names.size();
   const auto means = cell_mean(state.history, h);
   history.resize(h * cells);
-  for (std::size_t k = 0; k < h; ++k)
+  const std::size_t of_law = h - (_sim.scene.water ? 2 : 0);
+  for (std::size_t k = 0; k < of_law; ++k)
   {
     for (std::size_t c = 0; c < cells; ++c)
       history[k * cells + c] = means[h * c + k];
     out.push_back({names[k], Location::cell, 1,
                    std::span(history).subspan(k * cells, cells), ""});
   }
+  if (_sim.scene.water)
+    add_water_fields(out);
   return out;
 }
 } // namespace mmale

@@ -90,11 +90,11 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
     const auto& material = scene.material.begin()->second;
     law = material::make_law(material);
     problem = std::make_unique<lagrangian::Problem>(
-        domain, *law, scene.symmetry, scene.solver, clock);
+        domain, *law, scene.symmetry, scene.solver, scene.water, clock);
     state.points = problem->element().num_points();
     for (std::size_t i = 0; i < 2 * nodes; ++i)
       state.v[i] = scene.initial.velocity[i % 2];
-    fill_initial(scene, domain, *law, state);
+    fill_initial(scene, domain, problem->element(), state);
   }
   if (scene.remap.mode != scene::RemapMode::lagrangian)
     remap = std::make_unique<bridge::RemapStep>(domain, scene, law, clock);

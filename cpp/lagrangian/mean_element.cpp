@@ -11,8 +11,9 @@ namespace mmale::lagrangian
 {
 MeanElement::MeanElement(const mesh::Domain& domain,
                          const material::AnyLaw& law, scene::Symmetry symmetry,
-                         const scene::Solver& options)
-    : Element(domain, law, symmetry, options, 1),
+                         const scene::Solver& options,
+                         const std::optional<scene::Water>& water)
+    : Element(domain, law, symmetry, options, water, 1),
       _R(_axisymmetric ? *form_balance_R_axi : *form_balance_R_plane,
          IntegralKind::cell),
       _J(_axisymmetric ? *form_balance_J_axi : *form_balance_J_plane,
@@ -33,6 +34,8 @@ MeanElement::MeanElement(const mesh::Domain& domain,
                 IntegralKind::cell}},
       _cell(domain.num_owned_cells)
 {
+  if (_flows)
+    make_flow(*water);
 }
 
 std::array<double, 2> MeanElement::mismatch_squared(const State& state,
@@ -61,6 +64,11 @@ void MeanElement::begin_step(const State& state, double dt)
   Element::begin_step(state, dt);
   for (Cell& cell : _cell)
     cell.guess = std::numeric_limits<double>::quiet_NaN();
+  for (int c = 0; _flow and c < _domain.num_owned_cells; ++c)
+  {
+    const auto [G, K] = moduli(state, c, dt);
+    _flow->compliance[c] = 1 / (K + 4 * G / 3);
+  }
 }
 
 /// Strain and pressure of a cell; what is wrong with it, or null.
@@ -95,7 +103,7 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
 {
   const auto kind = tangent_kind();
   std::vector<double> turned(_num_history);
-  const auto answer = [&](const auto& law, int c)
+  const auto answer = [&](const auto& medium, int c)
   {
     Cell& cell = _cell[c];
     const Motion& m = cell.motion;
@@ -104,10 +112,11 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
     std::copy_n(state.history.begin() + at, _num_history, turned.begin());
     turn_history(turned, m.cosine, m.sine);
     const material::Point start{
-        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine), state.P[c],
-        turned};
-    if (material::drive(law, start, m.de, cell.p, constants.dt, cell.guess,
-                        kind, q, cell.answer)
+        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine),
+        driven_pressure(state, c), turned};
+    const double p_w = pore_pressure(c); // 0 but where it flows
+    if (material::drive(medium(p_w), start, m.de, cell.p - p_w, constants.dt,
+                        cell.guess, kind, q, cell.answer)
         != Outcome::ok)
       return "the law asks for a smaller step";
     turn_history(q, m.cosine, m.sine);
@@ -120,14 +129,14 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
     cell.s = rotate(cell.answer.s, m.cosine, m.sine);
     return static_cast<const char*>(nullptr);
   };
-  return std::visit(
-      [&](const auto& law)
+  return with_medium(
+      [&](const auto& medium)
       {
         for (int c = 0; c < _domain.num_owned_cells; ++c)
         {
           const char* trouble = strain_cell(state, c, z);
           if (not trouble)
-            trouble = answer(law, c);
+            trouble = answer(medium, c);
           if (trouble)
           {
             why = trouble;
@@ -135,8 +144,7 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
           }
         }
         return -1;
-      },
-      _law);
+      });
 }
 
 void MeanElement::gather(const State& state, int c, std::span<const double> z,
@@ -153,7 +161,7 @@ void MeanElement::gather(const State& state, int c, std::span<const double> z,
   in.mu = _G[c];
   in.memory = _fluid ? 0 : 1;
   in.lam = cell.answer.flow;
-  in.rho = state.density[c] * std::exp(-cell.motion.ln_J);
+  in.rho = end_density(state, c);
   if (_newmark)
     gather_newmark(state, c, in.newmark);
 }
@@ -256,6 +264,10 @@ void MeanElement::jacobian(const State& state, int c, std::span<const double> z,
     return;
   const Condensation K(A[9 * 11 + 9], A[9 * 11 + 10], A[10 * 11 + 9],
                        A[10 * 11 + 10]);
+  for (int i = 0; _flow and i < 9; ++i)
+    for (int b = 0; b < 2; ++b)
+      _flow->carried[2 * i + b] =
+          A[11 * i + 9] * K.inverse[b] + A[11 * i + 10] * K.inverse[2 + b];
   for (int j = 0; j < 9; ++j)
   {
     const auto [b0, b1] = K.solve(A[9 * 11 + j], A[10 * 11 + j]);

@@ -22,7 +22,8 @@ class PointElement final : public Element
 {
 public:
   PointElement(const mesh::Domain& domain, const material::AnyLaw& law,
-               scene::Symmetry symmetry, const scene::Solver& options);
+               scene::Symmetry symmetry, const scene::Solver& options,
+               const std::optional<scene::Water>& water);
 
   void begin_step(const State& state, double dt) override;
   void begin_iteration(std::span<const double> z) override;

@@ -43,7 +43,7 @@ class Problem
 public:
   Problem(const mesh::Domain& domain, const material::AnyLaw& law,
           scene::Symmetry symmetry, const scene::Solver& options,
-          output::Clock& clock);
+          const std::optional<scene::Water>& water, output::Clock& clock);
   ~Problem();
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
@@ -81,6 +81,10 @@ public:
   /// Force of each named boundary on the body, (x, y); per unit thickness, or
   /// of the whole circumference [N/m or N]. Of the last solve. Collective.
   std::vector<std::array<double, 2>> reactions() const;
+
+  /// Water that left through each named boundary in the last step, over its
+  /// length; none without seepage. Collective.
+  std::vector<double> discharge() const;
 
   /// RMS over the cells of (P - p) and of (theta - ln J). Collective.
   std::array<double, 2> mismatch(const State& state) const;
@@ -120,12 +124,16 @@ private:
   std::array<double, 2> impedance(int cell) const;
   void choose_solver();
   void scale(int cell, double* A);
+  void add_flow(int cell, const double* A9, double* A12);
   void lift(Vec b);
   void create_matrix();
   void create_solver();
   void unpack(Vec x);
   bool evaluate();
   void assemble_residual(double* r);
+  void assemble_flow(double* size);
+  void name_unsettled();
+  bool still_changing();
   void add_inertia(std::span<double> force, double& size);
   std::vector<double> inner_forces();
   void begin_newmark(const State& state);
@@ -164,11 +172,15 @@ private:
   double _bulk = 1;   ///< their mean bulk modulus [Pa]
   double _length;     ///< scale [m]
 
+  int _block = 3; ///< unknowns of a node in PETSc's vectors: ux, uy, p, and p_w
+                  ///< with seepage; all else keeps p_w apart
+  std::unique_ptr<PorePressure> _pore_pressure; ///< with seepage
+
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;
   std::optional<Newmark> _newmark; ///< in dynamic stages
   std::vector<double> _total;      ///< force less inertia, owned, shape (n, 2)
-  int _contact_changes = 0;        ///< in this step
+  int _contact_changes = 0;        ///< in this step, of seepage faces too
   double _t0 = 0, _t1 = 0;         ///< of this step
   std::vector<int> _holder;        ///< owned and ghost unknowns
   std::vector<double> _increment;  ///< of held unknowns
@@ -181,8 +193,9 @@ private:
   dolfinx::la::Vector<double> _z;     ///< unknowns with units
   dolfinx::la::Vector<double> _force; ///< residual with units
   std::vector<double> _coo;
-  std::vector<Lift> _lift;                       ///< of the matrix in use
-  double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
+  std::vector<Lift> _lift; ///< of the matrix in use
+  double _norm_u = 0, _norm_p = 0, _norm_bc = 0,
+         _norm_w = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
   NewtonLog* _log = nullptr; ///< of the Newton run that goes on

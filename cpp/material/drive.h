@@ -79,6 +79,15 @@ private:
   int _steps = 0;
 };
 
+/// What can be driven: a law, or one with water in its pores (`water.h`).
+template <class L>
+concept StrainDriven =
+    requires(const L law, const Point& start, const Strain& step,
+             TangentKind kind, std::span<double> q, Response& answer) {
+      { law.update(start, step, kind, q, answer) } -> std::same_as<Outcome>;
+      { law.moduli(start, step.dt) } -> std::same_as<Moduli>;
+    };
+
 /// Ask a law by pressure.
 ///
 /// @param[in]     p     at the end of the step [Pa]
@@ -86,7 +95,7 @@ private:
 /// @param[out]    q     history at the end
 /// @param[out]    answer
 /// @return reduce_step if the law asks for it, or has no such pressure
-template <MaterialLaw L>
+template <StrainDriven L>
 Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
               double dt, double guess, TangentKind kind, std::span<double> q,
               Driven& answer)

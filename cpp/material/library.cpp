@@ -106,6 +106,9 @@ scene::LawInfo info_of()
   for (const Parameter<L>& p : L::parameters)
     info.parameters.push_back({std::string(p.name), std::string(p.unit),
                                p.range, L{}.*p.value, std::string(p.meaning)});
+  info.void_ratio =
+      std::ranges::any_of(L{}.history(), [](const HistoryField& field)
+                          { return field.name == "void_ratio"; });
   if constexpr (HasTexts<L>)
     for (const TextParameter<L>& t : L::texts)
       info.texts.push_back(
@@ -156,7 +159,7 @@ AnyLaw make_law(const scene::Material& material)
   return *made;
 }
 
-std::vector<std::string> history_names(const AnyLaw& law)
+std::vector<std::string> history_names(const AnyLaw& law, bool water)
 {
   std::vector<std::string> names;
   for (const HistoryField& field :
@@ -166,11 +169,13 @@ std::vector<std::string> history_names(const AnyLaw& law)
     else
       for (const char* component : {"_xx", "_yy", "_zz", "_xy"})
         names.push_back(field.name + component);
+  if (water)
+    names.insert(names.end(), {"pore_pressure", "porosity"});
   return names;
 }
 
-int num_history(const AnyLaw& law)
+int num_history(const AnyLaw& law, bool water)
 {
-  return static_cast<int>(history_names(law).size());
+  return static_cast<int>(history_names(law, water).size());
 }
 } // namespace mmale::material

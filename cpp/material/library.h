@@ -32,9 +32,10 @@ std::vector<scene::LawInfo> law_infos();
 ///         library that cannot be loaded
 AnyLaw make_law(const scene::Material& material);
 
-/// Numbers of a point's history.
-int num_history(const AnyLaw& law);
+/// Numbers of a point's history, with water in its pores those of the water at
+/// the end.
+int num_history(const AnyLaw& law, bool water = false);
 
 /// Names of these numbers; a tensor has four, ending in _xx, _yy, _zz, _xy.
-std::vector<std::string> history_names(const AnyLaw& law);
+std::vector<std::string> history_names(const AnyLaw& law, bool water = false);
 } // namespace mmale::material

@@ -61,6 +61,7 @@ std::vector<Complaint> check(Scene scene, const Libraries& libraries,
   const Outline* known = outline ? &*outline : nullptr;
   check_materials(scene, libraries, out);
   check_stages(scene, known, out);
+  check_water(scene, libraries, out);
   check_solver(scene, out);
   check_remap(scene, libraries, known, out);
   check_tracers(scene, known, out);

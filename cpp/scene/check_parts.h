@@ -22,6 +22,9 @@ void check_material(const Material& material, const Libraries& libraries,
                     const std::string& key, Complaints& out);
 // The outline is null where nothing is known of it.
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out);
+/// Pore water: what it needs, and what needs it.
+void check_water(const Scene& scene, const Libraries& libraries,
+                 Complaints& out);
 /// Layout and element of the Lagrangian step.
 void check_solver(const Scene& scene, Complaints& out);
 

@@ -359,8 +359,12 @@ void check_initial(const Scene& scene, Complaints& out)
       out.push_back({"initial.surface", "needs K0 or void_ratio", {}});
     if (initial.surcharge > 0)
       out.push_back({"initial.surcharge", "needs K0", {}});
+    if (initial.water_table)
+      out.push_back({"initial.water_table", "needs K0", {}});
     return;
   }
+  if (initial.water_table and not scene.water)
+    out.push_back({"initial.water_table", "needs a table [water]", {}});
   const auto& gravity =
       scene.stage.empty() ? std::nullopt : scene.stage.front().gravity;
   if (not gravity or (*gravity)[0](0) != 0 or not((*gravity)[1](0) < 0))

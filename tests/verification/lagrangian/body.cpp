@@ -16,7 +16,7 @@ struct Body::Parts
   explicit Parts(scene::Scene s)
       : scene(std::move(s)), sim(MPI_COMM_SELF, scene),
         element(lagrangian::make_element(sim.domain, *sim.law, scene.symmetry,
-                                         scene.solver))
+                                         scene.solver, scene.water))
   {
     constants.spring = scene.solver.bubble_spring;
     element->begin_step(sim.state, 1);
@@ -90,6 +90,12 @@ std::array<double, 2> Body::reaction(const std::string& boundary) const
 {
   return _parts->sim.problem
       ->reactions()[_parts->sim.domain.boundary(boundary)];
+}
+
+double Body::discharge(const std::string& boundary) const
+{
+  return _parts->sim.problem
+      ->discharge()[_parts->sim.domain.boundary(boundary)];
 }
 
 std::array<double, 2> Body::mismatch() const

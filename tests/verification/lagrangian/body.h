@@ -45,6 +45,7 @@ public:
   void set_stage(const scene::Stage& stage);
   [[nodiscard]] Taken step(double t0, double t1);
   std::array<double, 2> reaction(const std::string& boundary) const;
+  double discharge(const std::string& boundary) const; ///< [m3/s/m]
   std::array<double, 2> mismatch() const; ///< RMS of P - p, theta - ln J
   double kinetic_energy();                ///< of a dynamic stage [J/m]
   void rebalance(double t);               ///< as after a remap
