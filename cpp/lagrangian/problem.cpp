@@ -475,11 +475,17 @@ double Problem::imbalance(const State& state, double dt)
   auto z = _z.mutable_array();
   for (int i = 0; i < 3 * _domain.num_nodes(); ++i)
     z[i] = i % 3 == 2 ? state.p[i / 3] : 0;
+  if (_pore_pressure)
+  {
+    _pore_pressure->begin(state.p_w, _t1, dt, _length);
+    std::ranges::copy(state.p_w, _pore_pressure->trial().begin());
+  }
   _element->begin_step(state, dt);
   if (not evaluate())
     throw std::runtime_error("the initial state fails: " + _failure.cause
                              + ", cell " + std::to_string(_failure.cell));
-  std::vector<double> r(3 * static_cast<std::size_t>(_domain.num_owned_nodes));
+  std::vector<double> r(static_cast<std::size_t>(_block)
+                        * _domain.num_owned_nodes);
   assemble_residual(r.data());
   const auto mass = mesh::lump(_domain, state.x, state.density,
                                _symmetry == scene::Symmetry::axisymmetric);
