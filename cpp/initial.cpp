@@ -251,6 +251,14 @@ Balance settle(Simulation& sim)
       balance.settled = sim.problem->imbalance(state, stage.step);
     }
   }
+  // the mesh's error is a small part of a node's own weight
+  const double nodes = static_cast<double>(sim.domain.nodes().size_global());
+  if (balance.as_laid > 0.5 / nodes)
+    throw std::runtime_error(std::format(
+        "the initial stress does not fit the loads of stage '{}': a force of "
+        "{:.1e} of the weight is left on a node; is the surcharge (and what "
+        "water stands above the surface) a pressure there?",
+        stage.name, balance.as_laid));
   if (not(balance.settled <= enough))
     throw std::runtime_error(std::format(
         "the initial stress is not in balance with the weight and the loads of "
