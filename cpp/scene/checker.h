@@ -182,6 +182,9 @@ private:
   void series(const Key& key, const TimeSeries& series)
   {
     const auto& time = series.time;
+    if (series.amplitude != 0 and not(series.frequency > 0))
+      add(key, std::format("frequency of the sine must be > 0 1/s, is {}",
+                           series.frequency));
     if (series.value.empty())
       add(key, "has no value");
     else if (time.empty() and series.value.size() > 1)

@@ -86,12 +86,18 @@ public:
 
   void operator()(const Key& key, std::optional<TimeSeries>&)
   {
-    add(key, "number or {time = [s], value = [..]}", "", "");
+    add(key,
+        "number, {time = [s], value = [..]} or {mean, amplitude, frequency "
+        "[1/s], phase_deg}",
+        "", "");
   }
 
   void operator()(const Key& key, std::optional<std::array<TimeSeries, 2>>&)
   {
-    add(key, "2 numbers or {time = [s], value = [..]}", "", "");
+    add(key,
+        "2, each a number, {time = [s], value = [..]} or {mean, amplitude, "
+        "frequency [1/s], phase_deg}",
+        "", "");
   }
 
   template <Table T>

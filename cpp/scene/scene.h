@@ -97,11 +97,15 @@ struct Material
                            ///< puts the scene's own folder
 };
 
-/// A value over the time of its stage [s]: constant, or piecewise linear.
+/// A value over the time of its stage [s]: constant, piecewise linear, or a
+/// sine about a mean, which is then the one value.
 struct TimeSeries
 {
   std::vector<double> time;  ///< ascending; empty for a constant
   std::vector<double> value; ///< same length, or one number
+  double amplitude = 0;      ///< of the sine
+  double frequency = 0;      ///< [1/s]
+  double phase_deg = 0;      ///< at the start of the stage [degrees]
 
   /// Value at time t; before the first and after the last time it is held.
   double operator()(double t) const;

@@ -14,6 +14,11 @@ using Json = nlohmann::ordered_json;
 
 inline Json json_of(const TimeSeries& series)
 {
+  if (series.amplitude != 0)
+    return Json{{"mean", series.value.front()},
+                {"amplitude", series.amplitude},
+                {"frequency", series.frequency},
+                {"phase_deg", series.phase_deg}};
   if (series.time.empty())
     return series.value.front();
   return Json{{"time", series.time}, {"value", series.value}};
