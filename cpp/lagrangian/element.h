@@ -192,7 +192,7 @@ protected:
   scene::Solver _options;
   bool _fluid; ///< its deviator has no memory
   std::optional<material::Water> _water;
-  bool _flows = false;  ///< the water
+  bool _flows = false; ///< the water
   double _water_gained = 0;
   double _rho_f = 0;    ///< its density [kg/m3]
   double _porosity = 0; ///< at the start, if no void ratio tells it
