@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bridge/domains.h"
+#include "drainage.h"
 #include "environment.h"
 #include "libraries.h"
 #include "mesh/gmsh.h"
@@ -356,6 +357,8 @@ Exit check_verb(const Arguments& given)
   {
     if (jobs.size() > 1)
       std::cout << "# " << job.member.folder << "\n";
+    if (const auto water = drainage(job.scene))
+      std::cout << "# " << water->words() << "\n";
     std::cout << scene::describe(job.scene) << "\n";
   }
   return good;

@@ -201,9 +201,8 @@ void Monitor::after_step(double dt)
                             : 1;
     _lagrangian_volume += turn * sum(_sim.domain.comm, end) - _volume;
     if (not _sim.state.p_w.empty())
-      _seeped += turn
-                 * sum(_sim.domain.comm,
-                       _sim.problem->element().water_gained());
+      _seeped +=
+          turn * sum(_sim.domain.comm, _sim.problem->element().water_gained());
     _volume = volume();
     _reactions = _sim.problem->reactions();
     _discharge = _sim.problem->discharge();

@@ -157,26 +157,33 @@ std::string Summary::commit_from_environment()
 
 std::string to_json(const Summary& s)
 {
-  const ordered_json out = {{"title", s.title},
-                            {"outcome", s.outcome},
-                            {"checks", list(s.checks)},
-                            {"time", number(s.time)},
-                            {"steps", s.steps},
-                            {"rejected_steps", s.rejected},
-                            {"newton_iterations", s.iterations},
-                            {"remaps", s.remaps},
-                            {"remaps_left_out", s.remaps_left_out},
-                            {"remap_trouble", s.remap_trouble},
-                            {"resumed", s.resumed},
-                            {"cells", s.cells},
-                            {"nodes", s.nodes},
-                            {"wall_seconds", number(s.wall_seconds)},
-                            {"ranks", s.ranks},
-                            {"commit", s.commit},
-                            {"versions", s.versions},
-                            {"ledger", list(s.ledger)},
-                            {"timers", list(s.timers)},
-                            {"scene", scene(s.scene)}};
+  ordered_json out = {{"title", s.title},
+                      {"outcome", s.outcome},
+                      {"checks", list(s.checks)},
+                      {"time", number(s.time)},
+                      {"steps", s.steps},
+                      {"rejected_steps", s.rejected},
+                      {"newton_iterations", s.iterations},
+                      {"remaps", s.remaps},
+                      {"remaps_left_out", s.remaps_left_out},
+                      {"remap_trouble", s.remap_trouble},
+                      {"resumed", s.resumed},
+                      {"cells", s.cells},
+                      {"nodes", s.nodes},
+                      {"wall_seconds", number(s.wall_seconds)},
+                      {"ranks", s.ranks},
+                      {"commit", s.commit},
+                      {"versions", s.versions},
+                      {"ledger", list(s.ledger)},
+                      {"timers", list(s.timers)},
+                      {"scene", scene(s.scene)}};
+  if (not s.water.empty())
+  {
+    ordered_json& water = out["water"];
+    for (const auto& [name, value] : s.water)
+      water[name] = number(value);
+    water["recommended"] = s.water_recommended;
+  }
   // Titles may hold bytes that are no UTF-8: they must not cost the summary.
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
