@@ -2,6 +2,7 @@
 #include "bridge/domains.h"
 #include "command_line.h"
 #include "element/verb.h"
+#include "drainage.h"
 #include "environment.h"
 #include "libraries.h"
 #include "mesh/gmsh.h"
@@ -312,6 +313,8 @@ Exit check_verb(const Arguments& given)
   {
     if (jobs.size() > 1)
       std::cout << "# " << job.member.folder << "\n";
+    if (const auto water = drainage(job.scene))
+      std::cout << "# " << water->words() << "\n";
     std::cout << scene::describe(job.scene) << "\n";
   }
   return good;

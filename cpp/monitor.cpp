@@ -200,6 +200,9 @@ void Monitor::after_step(double dt)
                             ? 2 * std::numbers::pi
                             : 1;
     _lagrangian_volume += turn * sum(_sim.domain.comm, end) - _volume;
+    if (not _sim.state.p_w.empty())
+      _seeped +=
+          turn * sum(_sim.domain.comm, _sim.problem->element().water_gained());
     _volume = volume();
     _reactions = _sim.problem->reactions();
     _discharge = _sim.problem->discharge();
@@ -398,7 +401,7 @@ output::Ledger Monitor::ledger() const
                    .unit = "kg" + per,
                    .end = integral(_sim.state.density),
                    .through_surface = turn * passed.mass.through,
-                   .booked = turn * passed.mass.at_walls});
+                   .booked = _seeped + turn * passed.mass.at_walls});
   for (const auto& [name, values] : _sim.state.tracer)
     out.push_back({.name = name,
                    .unit = "m3" + per,
@@ -420,6 +423,8 @@ void Monitor::keep(output::Archive& archive)
     archive("monitor/discharge", _discharge);
   archive("monitor/volume", _volume);
   archive("monitor/lagrangian_volume", _lagrangian_volume);
+  if (not _sim.state.p_w.empty())
+    archive("monitor/seeped", _seeped);
   std::vector<double> start;
   for (const auto& entry : _start)
     start.push_back(entry.start);

@@ -76,6 +76,7 @@ private:
   std::vector<double> _discharge; ///< of each boundary, with seepage
   output::Ledger _start;
   double _volume = 0;               ///< at the end of the last step
+  double _seeped = 0;               ///< mass of water that flowed in
   double _lagrangian_volume = 0;    ///< change by the material's own motion
   std::vector<double> _derived[3];  ///< von Mises, stress, history
   std::vector<double> _of_water[3]; ///< p_w, porosity, effective stress

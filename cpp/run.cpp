@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "run.h"
 
+#include "drainage.h"
 #include "initial.h"
 #include "lay.h"
 #include "monitor.h"
@@ -204,6 +205,15 @@ Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
   _summary.ranks = dolfinx::MPI::size(comm);
   _summary.versions = output::versions();
   _summary.scene = options.scene_as_understood;
+  if (const auto water = drainage(scene))
+  {
+    _summary.water = {{"T_v", water->T_v},
+                      {"c_v", water->c_v},
+                      {"frequency", water->frequency},
+                      {"drainage_length", water->length}};
+    _summary.water_recommended = water->recommended;
+    _progress.note(water->words());
+  }
   _summary.cells = _sim.domain.cell_map().size_global();
   _summary.nodes = _sim.domain.nodes().size_global();
   output::on_root(comm,

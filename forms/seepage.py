@@ -7,15 +7,18 @@ with p_w, g, a at the end of the step, or weighted with those at its start.
 
 theta is the skeleton's volume strain over the step, stored what water and grains
 give way by, k/gamma_w the mobility; a is the skeleton's acceleration (u-p: the
-water's own relative one is left out). Storage is lumped, that of the skeleton too:
-theta sees the cell's mean of p_w, which is a mass matrix of one point and lets nodes
-swing in small steps, and `compliance` is what the skeleton gives way by under a held
-total stress, so
+water's own relative one is left out).
 
-    compliance (lumped - one point) (p_w - p_w_n)
+Storage is lumped, and so is that of the skeleton: theta sees the cell's mean of p_w,
+a mass matrix of one point that lets nodes swing in short steps. With the skeleton's
+uniaxial compliance c under a held total stress, and of a P1 function
 
-makes the mass that stands before dp_w in sum a lumped one. It moves no water out of
-a cell. With consistent storage instead, for comparison, `C` is added.
+    ∫ lumped - one point  =  ∫ ∇r . H ∇dp_w,   H = 1/3 sum (x_a - x)(x_a - x)^T,
+
+c H is what a permeability would be that drains a cell's size at each change of load.
+It moves water from node to node of a cell. Water that weight and inertia press upon
+has a gradient of its own in no time, `share` of rho (g - a): that is no reason to
+flow. With consistent storage, for comparison, c = 0 and `C` is added.
 """
 
 from balance import (  # noqa: F401; FFCx finds coefficients by their names here
@@ -66,6 +69,8 @@ stored = Coefficient(Q)  # by water and grains, at the nodes [-]
 dstored_dp = Coefficient(Q)  # [1/Pa]
 compliance = Coefficient(per_cell())  # of the skeleton, uniaxial [1/Pa]
 mobility = Coefficient(per_cell())  # k / gamma_w [m2/(Pa s)]
+size = Coefficient(per_cell(2, 2))  # H [m2]
+share = Coefficient(per_cell())  # of water in the stiffness of the whole [-]
 radius = Coefficient(per_cell())  # of the middle of the cell; 1 in the plane
 rho_f = Constant(mesh)  # density of the water [kg/m3]
 end = Constant(mesh)  # weight of the end of the step in the flow [-]
@@ -76,14 +81,16 @@ def flow(axisymmetric):
     r = x[0] if axisymmetric else 1
     z = TestFunction(Q)
     u, _, _ = split(ufl.split(w))
-    a = end * (a_0 + c_a * u) + (1 - end) * a_n
+    a_1 = a_0 + c_a * u
+    a = end * a_1 + (1 - end) * a_n
     head = grad(end * p_w + (1 - end) * p_w_n)
     weight = rho_f * (end * g + (1 - end) * g_n - a)
-    rise = compliance * (p_w - p_w_n)
+    pressed = share * rho * ((g - a_1) - (g_n - a_n))
+    jump = compliance * dot(size, grad(p_w - p_w_n) - pressed)
     return (
-        z * (theta - rise) * r * dx
-        + z * (stored + rise) * radius * dx_nodes
-        + dt * mobility * dot(grad(z), head - weight) * r * dx
+        z * theta * r * dx
+        + z * stored * radius * dx_nodes
+        + dot(grad(z), dt * mobility * (head - weight) + jump) * r * dx
     )
 
 
@@ -127,15 +134,13 @@ def consistent(axisymmetric):
     """What consistent storage has and lumped has not."""
     r = x[0] if axisymmetric else 1
     z = TestFunction(Q)
-    rise = compliance * (p_w - p_w_n)
-    lumped = z * (stored + rise) * radius * dx_nodes - z * rise * r * dx
-    return z * stored * r * dx_exact - lumped
+    return z * stored * r * dx_exact - z * stored * radius * dx_nodes
 
 
 def consistent_slope(axisymmetric):
     """Its derivative."""
     R, dp = consistent(axisymmetric), TrialFunction(Q)
-    return derivative(R, p_w, dp) + derivative(R, stored, dstored_dp * dp)
+    return derivative(R, stored, dstored_dp * dp)
 
 
 def operators(axisymmetric, name):

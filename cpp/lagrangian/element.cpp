@@ -2,6 +2,7 @@
 #include "element.h"
 
 #include "mean_element.h"
+#include "mesh/corners.h"
 #include "point_element.h"
 #include <algorithm>
 #include <stdexcept>
@@ -239,9 +240,15 @@ void Element::gather_newmark(const State& state, int c, NewmarkInput& in) const
 void Element::accept(State& state, std::span<const double> z, double dt)
 {
   accept_stress(state);
+  _water_gained = 0;
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
+    const double before = state.density[c];
     state.density[c] = end_density(state, c);
+    if (_flows)
+      _water_gained +=
+          state.density[c] * _volume[c]
+          - before * mesh::cell_volume(_domain, state.x, c, _axisymmetric);
     if (not state.apex.empty())
       state.apex[c] += effort(c).apex > 0;
   }

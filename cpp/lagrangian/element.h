@@ -93,6 +93,10 @@ public:
   /// State at the end of the step, ghosts filled. Collective.
   void accept(State& state, std::span<const double> z, double dt);
 
+  /// Mass of the water that owned cells have gained in the last step, by flow
+  /// [kg/m or kg/rad].
+  double water_gained() const { return _water_gained; }
+
   /// Volume of the cell in the trial state, per unit thickness or radian.
   double volume(int cell) const { return _volume[cell]; }
 
@@ -193,7 +197,8 @@ protected:
   scene::Solver _options;
   bool _fluid; ///< its deviator has no memory
   std::optional<material::Water> _water;
-  bool _flows = false;  ///< the water
+  bool _flows = false; ///< the water
+  double _water_gained = 0;
   double _rho_f = 0;    ///< its density [kg/m3]
   double _porosity = 0; ///< at the start, if no void ratio tells it
   const PorePressure* _seepage = nullptr; ///< with water that flows

@@ -67,6 +67,8 @@ std::vector<Offer> offers(const SeepageInput*)
                          {"dstored_dp", offsetof(Input, dstored_dp), 3},
                          {"compliance", offsetof(Input, compliance), 1},
                          {"mobility", offsetof(Input, mobility), 1},
+                         {"share", offsetof(Input, share), 1},
+                         {"size", offsetof(Input, size), 4},
                          {"radius", offsetof(Input, radius), 1}});
   return out;
 }

@@ -42,7 +42,8 @@ struct SeepageInput
   CellInput cell;
   double p_w[3], p_w_n[3]; ///< end and start of the step
   double stored[3], dstored_dp[3];
-  double compliance, mobility, radius;
+  double compliance, mobility, share, radius;
+  double size[4];
 };
 
 /// What a cell of n points offers, by the names in forms/points.py.

@@ -48,8 +48,19 @@ void MeanElement::gather_flow(const State& state, int c,
     in.stored[v] = stored;
     in.dstored_dp[v] = slope;
   }
-  in.compliance = _flow->compliance[c];
+  const double c_uniaxial = _flow->compliance[c];
+  in.compliance = _flow->consistent ? 0 : c_uniaxial;
   in.mobility = _flow->mobility;
+  in.share = c_uniaxial / (c_uniaxial + _water->compressibility(pores));
+  std::fill_n(in.size, 4, 0.0);
+  for (int v = 0; v < 3; ++v)
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+      {
+        const auto arm = [&](int d)
+        { return x[3 * v + d] - (x[d] + x[3 + d] + x[6 + d]) / 3; };
+        in.size[2 * i + j] += arm(i) * arm(j) / 3;
+      }
   in.radius = _axisymmetric ? (x[0] + x[3] + x[6]) / 3 : 1;
 }
 

@@ -34,7 +34,7 @@ public:
   void begin(std::span<const double> p_w, double t1, double dt, double length);
 
   /// Hold or free nodes of seepage faces by the water that flows out and by
-  /// their pressure, in the midst of Newton. Collective.
+  /// their pressure, at a solution of Newton's. Collective.
   /// @return has any rank changed the set?
   bool update();
 

@@ -203,7 +203,8 @@ void Problem::assemble_residual(double* r)
     add_inertia(force, size[0]);
   if (_pore_pressure)
     assemble_flow(size);
-  if (_contact_changes < max_contact_changes and still_changing())
+  if (not _contact->empty() and _contact_changes < max_contact_changes
+      and _contact->update(_state->x, z, force, _stress))
   {
     ++_contact_changes;
     hold();
@@ -270,16 +271,26 @@ void Problem::assemble_flow(double* size)
   _pore_pressure->gather_residual();
 }
 
-/// Contact and seepage faces by the forces and flows of now. Collective.
-/// @return has a node been held or let go?
-bool Problem::still_changing()
+/// Newton again and again while nodes of seepage faces are held or let go, from
+/// where the last one ended. (In its midst, as contact does it, a row that
+/// changes from a flow to a pressure stalls the line search.)
+bool Problem::settle_faces(NewtonLog& log)
 {
-  const bool touched =
-      not _contact->empty()
-      and _contact->update(_state->x, _z.array(), _force.array(), _stress);
-  const bool wetted = _pore_pressure and _pore_pressure->has_face()
-                      and _pore_pressure->update();
-  return touched or wetted;
+  for (int round = 0; _pore_pressure->update(); ++round)
+  {
+    if (round == max_contact_changes)
+    {
+      const int node = _pore_pressure->unsettled();
+      agree_on_failure(node < 0 ? -1 : cell_at(node),
+                       "a seepage face did not settle");
+      log.failure = _failure;
+      return false;
+    }
+    hold();
+    if (not newton(log))
+      return false;
+  }
+  return true;
 }
 
 /// A local cell at a local node.
@@ -422,24 +433,16 @@ bool Problem::equilibrium(Start from, NewtonLog& log)
   start(from);
   if (not newton(log))
     return false;
-  if (not still_changing())
+  if (_pore_pressure and _pore_pressure->has_face() and not settle_faces(log))
+    return false;
+  if (_contact->empty()
+      or not _contact->update(_state->x, _z.array(), _force.array(), _stress))
     return true;
-  name_unsettled();
+  const int node = _contact->unsettled();
+  agree_on_failure(node < 0 ? -1 : cell_at(node),
+                   "contact with a wall did not settle");
   log.failure = _failure;
   return false;
-}
-
-/// Says which set did not settle. Collective.
-void Problem::name_unsettled()
-{
-  if (const int node = _contact->unsettled(); not _contact->empty())
-    agree_on_failure(node < 0 ? -1 : cell_at(node),
-                     "contact with a wall did not settle");
-  if (_failed or not _pore_pressure)
-    return;
-  const int node = _pore_pressure->unsettled();
-  agree_on_failure(node < 0 ? -1 : cell_at(node),
-                   "a seepage face did not settle");
 }
 
 bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)

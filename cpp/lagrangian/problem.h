@@ -132,8 +132,7 @@ private:
   bool evaluate();
   void assemble_residual(double* r);
   void assemble_flow(double* size);
-  void name_unsettled();
-  bool still_changing();
+  bool settle_faces(NewtonLog& log);
   void add_inertia(std::span<double> force, double& size);
   std::vector<double> inner_forces();
   void begin_newmark(const State& state);

@@ -190,6 +190,13 @@ std::string to_json(const Summary& s)
                       {"scene", scene(s.scene)}};
   if (not s.data.empty())
     out["data"] = list(s.data);
+  if (not s.water.empty())
+  {
+    ordered_json& water = out["water"];
+    for (const auto& [name, value] : s.water)
+      water[name] = number(value);
+    water["recommended"] = s.water_recommended;
+  }
   // Titles may hold bytes that are no UTF-8: they must not cost the summary.
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

@@ -46,7 +46,9 @@ struct Summary
   std::map<std::string, std::string> versions = library_versions();
   std::string commit = commit_from_environment();
   int ranks = 1;
-  std::string scene; ///< as understood, JSON text
+  std::string scene;                   ///< as understood, JSON text
+  std::map<std::string, double> water; ///< numbers of the drainage; or none
+  std::string water_recommended;       ///< and the model that they ask for
   Ledger ledger;
   std::vector<Timing> timers;
   std::vector<Deviation> data; ///< left out when empty

@@ -391,6 +391,28 @@ def vibrating_column_np(ranks):
     same_on(ranks, "vibrating_column", [], columns)
 
 
+def consolidation():
+    """Terzaghi's layer, and again on a distorted mesh that the remap straightens:
+    p' and p_w travel, the books of mass close."""
+    whole, _ = run("consolidation")
+    words = ["mesh.distortion=0.3", "remap.mode=ale", "remap.every=1"]
+    words += ["remap.target=equilateral", 'remap.surface=["top"]']
+    words += ["remap.smoother=average_area"]
+    folder, _ = run("consolidation", *words, results="remapped")
+    hold(summary(folder)["remaps"] > 100, "remaps were done")
+    conserved(folder)
+    for name in ("base", "settlement"):
+        pairs = zip(curves(whole)[name], curves(folder)[name])
+        worst = max(abs(a - b) for a, b in pairs)
+        hold(worst < 0.005, f"{name} differs by {worst}")
+
+
+def consolidation_np(ranks):
+    """A hundred linear steps."""
+    columns = {"base": 1e-9, "settlement": 1e-9, "discharge": 1e-12}
+    same_on(ranks, "consolidation", [], columns)
+
+
 def layouts_np(ranks):
     """The triangles of the points travel through halos of cells."""
     for points in (3, 6):

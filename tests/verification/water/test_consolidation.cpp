@@ -172,6 +172,15 @@ TEST_CASE("Terzaghi: a layer drained at its top, order 2 with steps ~ h^2",
   CHECK(order(middle.mean, fine.mean) > 1.8);
 }
 
+TEST_CASE("Terzaghi: a weight of one half makes long steps exact", "[water]")
+{
+  // steps that grow by 10 %: order 2 in time, where a weight of 1 has order 1
+  const Error half = layer(32, 1.1, 0.5), whole = layer(32, 1.1, 1);
+  INFO("largest " << half.largest << " " << whole.largest);
+  CHECK(half.largest < 0.005);
+  CHECK(whole.largest > 3 * half.largest);
+}
+
 TEST_CASE("Mandel: pressure rises before it falls, and the plate's force stays",
           "[water]")
 {
@@ -186,18 +195,25 @@ TEST_CASE("Mandel: pressure rises before it falls, and the plate's force stays",
                   << middle.peak);
   CHECK(middle.largest < 0.005);
   CHECK(order(middle.mean, fine.mean) > 1.8);
-  CHECK(force[1] < 0.005);
+  // the plate meets it at first in a drained layer thinner than a cell
+  CHECK(force[1] < 0.01);
+  CHECK(force[2] < 0.003);
   // constituents compressible by K / K_w = 0.0011; 1.106895 without
   CHECK(middle.peak == Catch::Approx(1.1069).epsilon(0.005));
 }
 
 TEST_CASE("Cryer: the peak in the centre of a sphere, about an axis", "[water]")
 {
+  // cells of 1/8, 1/16, 1/24 of the radius
   const Error coarse = ball(1, 1.1, 0.25), middle = ball(2, 1.05, 0.25),
-              fine = ball(4, 1.025, .25);
-  INFO("largest " << coarse.largest << " " << middle.largest << ", mean "
-                  << coarse.mean << " " << middle.mean << ", peak "
-                  << middle.peak << " f " << fine.largest << " " << fine.mean);
-  CHECK(middle.largest < 0.005 * 1.30752);
-  CHECK(middle.peak == Catch::Approx(1.30752).epsilon(0.005));
+              fine = ball(3, 1.033, 0.25);
+  INFO("largest " << coarse.largest << " " << middle.largest << " "
+                  << fine.largest << ", mean " << coarse.mean << " "
+                  << middle.mean << " " << fine.mean << ", peak " << middle.peak
+                  << " " << fine.peak);
+  CHECK(middle.mean < 0.005);
+  CHECK(fine.largest < 0.005);
+  CHECK(middle.peak == Catch::Approx(1.30752).epsilon(0.001));
+  // irregular meshes: the error of one node has no clean order
+  CHECK(std::log(middle.mean / fine.mean) / std::log(1.5) > 1.5);
 }
