@@ -133,7 +133,7 @@ std::vector<output::Deviation> compare(const Test& test, const Options& options,
   return deviations(table, curves);
 }
 
-void tell(const output::Summary& summary)
+void tell(const output::Summary& summary, const Options& options)
 {
   std::cout << output::table(summary.checks);
   for (const output::Deviation& d : summary.data)
@@ -143,8 +143,8 @@ void tell(const output::Summary& summary)
         "data", d.column, d.rms, d.abscissa, d.points,
         d.outside > 0 ? std::format(", {} not reached", d.outside) : "");
   std::cout << summary.outcome << ", "
-            << std::format("{} steps, {:.3g} s", summary.steps,
-                           summary.wall_seconds)
+            << std::format("{} steps, {:.3g} s; results in {}", summary.steps,
+                           summary.wall_seconds, options.results.string())
             << std::endl;
 }
 } // namespace
@@ -188,7 +188,7 @@ Result run(const Test& test, const Options& options)
   summary.wall_seconds = clock.wall();
   write(options.results / "summary.json", summary);
   if (not options.quiet)
-    tell(summary);
+    tell(summary, options);
 
   output::Pictures pictures{.title = test.title};
   pictures.sheets = {sheet(test, names, known.entries)};

@@ -41,6 +41,7 @@ struct Path
   std::string name;
   std::string kind; ///< isotropic | oedometric | triaxial | simple_shear | free
   std::string drainage = "drained"; ///< "undrained": the volume is constant
+  std::string hold = "sigma_r";     ///< or "p", of a triaxial path
   std::optional<double> pressure, q;
   std::optional<double> eps_v;
   std::optional<double> eps_a, eps_r, eps_t, gamma;
