@@ -44,11 +44,11 @@ double closing_stiffness(const Sand& c, double e)
 /// go side by side.
 struct Apex
 {
-  double begin = 0;  ///< time of the step when grains touch; above 1: never
+  double begin = 0;   ///< time of the step when grains touch; above 1: never
   double begin_D = 0; ///< its derivative by the volume strain
-  double p = 0;      ///< pressure then, or at the end
-  double p_D = 0;    ///< and its derivative, if they never do
-  double gap = 0;    ///< between the floor and p
+  double p = 0;       ///< pressure then, or at the end
+  double p_D = 0;     ///< and its derivative, if they never do
+  double gap = 0;     ///< between the floor and p
 };
 
 /// @param[in] soft, stiff bulk stiffness where grains do not touch, and do
@@ -73,8 +73,7 @@ Apex approach(const Sand& c, double p, double e, double theta, double soft,
   }
   out.begin = 2;
   out.p_D = theta < loose ? -stiff : -soft;
-  out.p = theta < loose ? at_touch - stiff * (theta - loose)
-                        : p - soft * theta;
+  out.p = theta < loose ? at_touch - stiff * (theta - loose) : p - soft * theta;
   return out;
 }
 
@@ -95,8 +94,7 @@ End bring_down(const Track& track, double gap, const Tensor& gap_D)
 {
   End out;
   const double p = -hypoplasticity::trace<4>(track.T) / 3;
-  const Tensor by_D
-      = -track.T_D.topRows<3>().colwise().sum().transpose() / 3;
+  const Tensor by_D = -track.T_D.topRows<3>().colwise().sum().transpose() / 3;
   out.s = track.T + p * one;
   out.s_D = track.T_D + one * by_D.transpose();
   out.p = p - gap;
@@ -159,7 +157,8 @@ const std::array<Parameter<H>, 21> H::parameters{{
     {"e_c0", "-", &H::e_c0, above(0), "critical void ratio at zero pressure"},
     {"e_i0", "-", &H::e_i0, above(0), "largest void ratio at zero pressure"},
     {"alpha", "-", &H::alpha, above(0), "exponent of density in the strength"},
-    {"beta", "-", &H::beta, at_least(0), "exponent of density in the stiffness"},
+    {"beta", "-", &H::beta, at_least(0),
+     "exponent of density in the stiffness"},
     {"m_R", "-", &H::m_R, at_least(1),
      "stiffness after reversal over the basic one"},
     {"m_T", "-", &H::m_T, at_least(1),
@@ -255,8 +254,14 @@ Sand H::constants() const
   using std::pow, std::sqrt;
   constexpr double radian = std::numbers::pi / 180;
   const double s = std::sin(phi_c_deg * radian);
-  Sand c{.h_s = h_s, .n = n, .e_d = e_d0, .e_c = e_c0, .e_i = e_i0,
-         .alpha = alpha, .beta = beta, .floor = p_min};
+  Sand c{.h_s = h_s,
+         .n = n,
+         .e_d = e_d0,
+         .e_c = e_c0,
+         .e_i = e_i0,
+         .alpha = alpha,
+         .beta = beta,
+         .floor = p_min};
   c.a = sqrt(3) * (3 - s) / (2 * root2 * s);
   c.f_d = pow((e_i0 - e_d0) / (e_c0 - e_d0), alpha);
   const double stiff = pow(e_i0 / e_c0, beta);

@@ -47,7 +47,8 @@ struct Hypoplastic
   double p_t = 0;              ///< cohesion: shift of the apex [Pa]
   double grain_density = required; ///< [kg/m3]
   double void_ratio = not_given;   ///< at the start, or:
-  double relative_density = not_given; ///< (e_c0 - e)/(e_c0 - e_d0) at the start
+  double relative_density =
+      not_given;              ///< (e_c0 - e)/(e_c0 - e_d0) at the start
   double p_min = 100;         ///< zero-stress floor, counted from the apex [Pa]
   double apex_stiffness = 10; ///< bulk stiffness beyond it, over p_min [-]
   double tolerance = 1e-4;    ///< of a sub-step, relative [-]

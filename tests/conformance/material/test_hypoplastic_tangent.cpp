@@ -77,10 +77,12 @@ TEST_CASE("hypoplastic: the consistent tangent is the derivative of the update",
     const Eigen::Vector<double, 5> slope = (right - left) / (2 * h);
     const auto m = element.law.moduli({a.s, a.p, q}, 1);
     const double size = m.K * strain;
-    Eigen::Vector<double, 5> miss = slope - exact, bend = (right - 2 * centre + left) / h;
+    Eigen::Vector<double, 5> miss = slope - exact,
+                             bend = (right - 2 * centre + left) / h;
     miss.head<4>() /= size;
     bend.head<4>() /= size;
-    if (miss.norm() > 1e-5) WARN(trial << " " << miss.transpose() << " | " << bend.norm());
+    if (miss.norm() > 1e-5)
+      WARN(trial << " " << miss.transpose() << " | " << bend.norm());
     worst = std::max(worst, miss.norm());
   }
   CHECK(worst < 1e-4);
