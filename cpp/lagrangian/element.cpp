@@ -100,7 +100,9 @@ bool Element::symmetric() const
 
 double Element::density() const
 {
-  return std::visit([](const auto& l) { return l.density; }, _law);
+  return std::visit([](const auto& l)
+                    { return material::initial_density(l, material::Start{}); },
+                    _law);
 }
 
 double Element::force_squared(const State& state, int c) const

@@ -185,8 +185,8 @@ struct ListParameter
   std::string_view meaning;
 };
 
-/// Mass density of a point at the start [kg/m3]: the law's `density`, or what it
-/// makes of other numbers.
+/// Mass density of a point at the start [kg/m3]: the law's `density`, or what
+/// it makes of other numbers.
 template <class L>
 double initial_density(const L& law, const Start& at)
 {

@@ -67,6 +67,26 @@ inline const std::vector<Sample> samples{
       {{"props", {2.1e11, 0.29, 3e8, 4e9}}}},
      1.9e-3,
      2e-3},
+    // tight: what the sequence of sub-steps adds to differences is of the size
+    // of the tolerance
+    {{"hypoplastic",
+      {{"grain_density", 2650}, {"void_ratio", 0.7}, {"tolerance", 1e-10}},
+      {{"sand", "hochstetten"},
+       {"intergranular_strain", "off"},
+       {"integrator", "dp54"}}},
+     1e-3,
+     2e-4,
+     1e5},
+    {{"hypoplastic",
+      {{"grain_density", 2650},
+       {"relative_density", 0.3},
+       {"tolerance", 1e-10}},
+      {{"sand", "karlsruhe_fine"},
+       {"intergranular_strain", "on"},
+       {"integrator", "dp54"}}},
+     1e-4,
+     2e-5,
+     3e4},
 };
 
 /// Random numbers that any machine draws alike.
