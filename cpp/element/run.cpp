@@ -11,6 +11,7 @@
 #include <cmath>
 #include <format>
 #include <iostream>
+#include <numeric>
 #include <stdexcept>
 
 namespace mmale::element
@@ -133,6 +134,21 @@ std::vector<output::Deviation> compare(const Test& test, const Options& options,
   return deviations(table, curves);
 }
 
+/// What the law had to put right, if anything.
+void tell_effort(const output::Curves& curves)
+{
+  const auto sum = [&](const char* name)
+  {
+    const auto column = curves.column(name);
+    return std::accumulate(column.begin(), column.end(), 0.0);
+  };
+  const double apex = sum("apex"), clipped = sum("clipped");
+  if (apex > 0 or clipped > 0)
+    std::cout << std::format("the law met its zero-stress floor in {} updates "
+                             "and clipped its state in {}\n",
+                             apex, clipped);
+}
+
 void tell(const output::Summary& summary, const Options& options)
 {
   std::cout << output::table(summary.checks);
@@ -188,7 +204,10 @@ Result run(const Test& test, const Options& options)
   summary.wall_seconds = clock.wall();
   write(options.results / "summary.json", summary);
   if (not options.quiet)
+  {
+    tell_effort(curves);
     tell(summary, options);
+  }
 
   output::Pictures pictures{.title = test.title};
   pictures.sheets = {sheet(test, names, known.entries)};
