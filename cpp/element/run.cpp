@@ -102,7 +102,7 @@ std::string follow(const Test& test, const material::AnyLaw& law, State& state,
         return std::format("stopped in step {} of {} of {}: {}; p = {:.6g} Pa, "
                            "eps_a = {:.6g}",
                            step, driver.steps(), label(test.path, i), log.cause,
-                           p, -state.strain[1]);
+                           p, 0.0 - state.strain[1]);
       }
       ++summary.steps;
       curves.add(
