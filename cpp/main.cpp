@@ -335,7 +335,11 @@ void define_element(CLI::App& app, Arguments& given,
   verb->add_flag("--quiet", given.quiet, "Nothing on the screen");
   CLI::Option* keys =
       verb->add_flag("--keys", given.keys, "List every key of a test");
-  verb->footer(exit_help);
+  verb->footer(
+      "Exit code: 0 all tests completed; 1 mistake in test or command line;\n"
+      "2 failure of the program; 3 a test stopped early: what is prescribed\n"
+      "cannot be met; 4 completed, but a check of reference.toml beside the\n"
+      "test does not hold.");
   verb->final_callback(
       [keys, test]
       {

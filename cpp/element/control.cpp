@@ -91,8 +91,8 @@ Control control_of(const Path& path, const State& start)
   }
   else if (path.kind == kinds[triaxial])
   {
-    b.hold_stress(radial);
-    b.hold_stress(tangential);
+    b.hold_stress(radial - tangential);
+    b.hold_stress(path.hold == holds[1] ? Voigt(volume / 3) : radial);
     b.hold_strain(shear);
     if (path.q)
       b.drive_stress(axial - (radial + tangential) / 2, *path.q, cycles);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <format>
 #include <iostream>
+#include <numeric>
 #include <stdexcept>
 
 namespace mmale::element
@@ -101,7 +102,7 @@ std::string follow(const Test& test, const material::AnyLaw& law, State& state,
         return std::format("stopped in step {} of {} of {}: {}; p = {:.6g} Pa, "
                            "eps_a = {:.6g}",
                            step, driver.steps(), label(test.path, i), log.cause,
-                           p, -state.strain[1]);
+                           p, 0.0 - state.strain[1]);
       }
       ++summary.steps;
       curves.add(
@@ -133,7 +134,22 @@ std::vector<output::Deviation> compare(const Test& test, const Options& options,
   return deviations(table, curves);
 }
 
-void tell(const output::Summary& summary)
+/// What the law had to put right, if anything.
+void tell_effort(const output::Curves& curves)
+{
+  const auto sum = [&](const char* name)
+  {
+    const auto column = curves.column(name);
+    return std::accumulate(column.begin(), column.end(), 0.0);
+  };
+  const double apex = sum("apex"), clipped = sum("clipped");
+  if (apex > 0 or clipped > 0)
+    std::cout << std::format("the law met its zero-stress floor in {} updates "
+                             "and clipped its state in {}\n",
+                             apex, clipped);
+}
+
+void tell(const output::Summary& summary, const Options& options)
 {
   std::cout << output::table(summary.checks);
   for (const output::Deviation& d : summary.data)
@@ -143,8 +159,8 @@ void tell(const output::Summary& summary)
         "data", d.column, d.rms, d.abscissa, d.points,
         d.outside > 0 ? std::format(", {} not reached", d.outside) : "");
   std::cout << summary.outcome << ", "
-            << std::format("{} steps, {:.3g} s", summary.steps,
-                           summary.wall_seconds)
+            << std::format("{} steps, {:.3g} s; results in {}", summary.steps,
+                           summary.wall_seconds, options.results.string())
             << std::endl;
 }
 } // namespace
@@ -188,7 +204,10 @@ Result run(const Test& test, const Options& options)
   summary.wall_seconds = clock.wall();
   write(options.results / "summary.json", summary);
   if (not options.quiet)
-    tell(summary);
+  {
+    tell_effort(curves);
+    tell(summary, options);
+  }
 
   output::Pictures pictures{.title = test.title};
   pictures.sheets = {sheet(test, names, known.entries)};

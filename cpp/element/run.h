@@ -29,8 +29,8 @@ struct Result
   std::string outcome; ///< "completed", or why it stopped
   bool completed = false;
   bool checks_hold = true;
-  std::map<std::string, double> last; ///< last row of curves.csv, by name,
-                                      ///< and rms_NAME of the data
+  std::map<std::string, double> last = {}; ///< last row of curves.csv, by name,
+                                           ///< and rms_NAME of the data
 };
 
 /// Run a test that has no complaints left and write its results.

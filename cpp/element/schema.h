@@ -31,6 +31,7 @@ enum Kind : std::size_t
   simple_shear,
   free_path
 };
+inline const std::vector<std::string> holds = {"sigma_r", "p"};
 inline const std::vector<std::string> drainages = {"drained", "undrained"};
 
 template <class V>
@@ -78,6 +79,16 @@ void keys(V& v, Path& p)
             {},
             drainages},
            p.drainage);
+       });
+  only({triaxial},
+       [&]
+       {
+         v({"hold",
+            "",
+            "What stays besides sigma_r = sigma_t: both, or the mean pressure.",
+            {},
+            holds},
+           p.hold);
        });
   only({isotropic},
        [&]

@@ -28,10 +28,10 @@ struct Initial
 /// Measured points that the test is held against.
 struct Data
 {
-  std::string file;   ///< columns named as in curves.csv
-  std::string folder; ///< where a relative `file` starts; no key: the reader
-                      ///< puts the test's own folder
-  std::string x;      ///< abscissa; "": the file's first column
+  std::string file = {};   ///< columns named as in curves.csv
+  std::string folder = {}; ///< where a relative `file` starts; no key: the
+                           ///< reader puts the test's own folder
+  std::string x = {}; ///< abscissa; "": the file's first column
 };
 
 /// One loading. Strains count from its start; stresses are those at its end,
@@ -41,6 +41,7 @@ struct Path
   std::string name;
   std::string kind; ///< isotropic | oedometric | triaxial | simple_shear | free
   std::string drainage = "drained"; ///< "undrained": the volume is constant
+  std::string hold = "sigma_r";     ///< or "p", of a triaxial path
   std::optional<double> pressure, q;
   std::optional<double> eps_v;
   std::optional<double> eps_a, eps_r, eps_t, gamma;

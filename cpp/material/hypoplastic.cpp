@@ -35,46 +35,48 @@ double closing_stiffness(const Sand& c, double e)
   return c.m_R * f.f_s * (3 + c.a * c.a) / 3;
 }
 
-/// What a step does to sand whose pressure is below the floor, beside what the
-/// rates do to the same stress ratio at the floor.
+/// What a step does to sand whose pressure is below the floor.
 ///
-/// The way of the pressure is split: grains that are out of touch (beyond the
-/// apex, or below the floor with void ratios above e_i) come back into touch
-/// first and alone; from then on rates and what is left of the gap to the floor
-/// go side by side.
+/// The rates work at the floor, on the same stress ratio; the gap between the
+/// floor and the pressure is closed and opened by the volume strain. Of the
+/// strain of sand whose grains touch only in part, p/p_min of them, the rates
+/// see that part, until the gap has closed. With void ratios above e_i at the
+/// floor no grains touch.
 struct Apex
 {
-  double begin = 0;  ///< time of the step when grains touch; above 1: never
+  double begin = 0;   ///< part of the strain that the rates do not see
   double begin_D = 0; ///< its derivative by the volume strain
-  double p = 0;      ///< pressure then, or at the end
-  double p_D = 0;    ///< and its derivative, if they never do
-  double gap = 0;    ///< between the floor and p
+  double gap = 0;     ///< at the end of the step [Pa]
+  double gap_D = 0;   ///< and its derivative
 };
 
 /// @param[in] soft, stiff bulk stiffness where grains do not touch, and do
 Apex approach(const Sand& c, double p, double e, double theta, double soft,
               double stiff)
 {
-  Apex out{.p = p, .gap = std::max(0.0, c.floor - p)};
+  Apex out{.gap = c.floor - p};
   const double e_i = c.e_i * std::exp(-std::pow(3 * c.floor / c.h_s, c.n));
-  if (not(p < c.floor and (p <= 0 or e > e_i)))
-    return out;
-  // volume strains until grains touch, and until the apex is reached
   const double loose = std::min(0.0, std::log((1 + e_i) / (1 + e)));
-  const double at_touch = p - soft * loose;
-  const double open = std::min(0.0, at_touch / stiff);
-  if (theta < loose + open)
+  const double touch = loose < 0 ? 0 : std::max(0.0, p / c.floor);
+  out.begin = 1 - touch;
+  if (theta >= 0)
   {
-    out.begin = (loose + open) / theta;
-    out.begin_D = -out.begin / theta;
-    out.p = std::max(0.0, at_touch);
-    out.gap = std::max(0.0, c.floor - out.p);
+    out.gap_D = soft * out.begin; // the rest opens at the floor
+    out.gap += out.gap_D * theta;
     return out;
   }
-  out.begin = 2;
-  out.p_D = theta < loose ? -stiff : -soft;
-  out.p = theta < loose ? at_touch - stiff * (theta - loose)
-                        : p - soft * theta;
+  const double left = out.gap + soft * loose; // when grains come to touch
+  const double closed = left > 0 ? loose - left / stiff : -out.gap / soft;
+  if (theta <= closed)
+  {
+    out.begin *= closed / theta;
+    out.begin_D = -out.begin / theta;
+    out.gap = 0;
+    return out;
+  }
+  out.gap_D = theta > loose ? soft : stiff;
+  out.gap +=
+      soft * std::max(theta, loose) + stiff * std::min(0.0, theta - loose);
   return out;
 }
 
@@ -95,8 +97,7 @@ End bring_down(const Track& track, double gap, const Tensor& gap_D)
 {
   End out;
   const double p = -hypoplasticity::trace<4>(track.T) / 3;
-  const Tensor by_D
-      = -track.T_D.topRows<3>().colwise().sum().transpose() / 3;
+  const Tensor by_D = -track.T_D.topRows<3>().colwise().sum().transpose() / 3;
   out.s = track.T + p * one;
   out.s_D = track.T_D + one * by_D.transpose();
   out.p = p - gap;
@@ -142,7 +143,8 @@ const std::array<Parameter<H>, 21> H::parameters{{
     {"e_c0", "-", &H::e_c0, above(0), "critical void ratio at zero pressure"},
     {"e_i0", "-", &H::e_i0, above(0), "largest void ratio at zero pressure"},
     {"alpha", "-", &H::alpha, above(0), "exponent of density in the strength"},
-    {"beta", "-", &H::beta, at_least(0), "exponent of density in the stiffness"},
+    {"beta", "-", &H::beta, at_least(0),
+     "exponent of density in the stiffness"},
     {"m_R", "-", &H::m_R, at_least(1),
      "stiffness after reversal over the basic one"},
     {"m_T", "-", &H::m_T, at_least(1),
@@ -238,8 +240,14 @@ Sand H::constants() const
   using std::pow, std::sqrt;
   constexpr double radian = std::numbers::pi / 180;
   const double s = std::sin(phi_c_deg * radian);
-  Sand c{.h_s = h_s, .n = n, .e_d = e_d0, .e_c = e_c0, .e_i = e_i0,
-         .alpha = alpha, .beta = beta, .floor = p_min};
+  Sand c{.h_s = h_s,
+         .n = n,
+         .e_d = e_d0,
+         .e_c = e_c0,
+         .e_i = e_i0,
+         .alpha = alpha,
+         .beta = beta,
+         .floor = p_min};
   c.a = sqrt(3) * (3 - s) / (2 * root2 * s);
   c.f_d = pow((e_i0 - e_d0) / (e_c0 - e_d0), alpha);
   const double stiff = pow(e_i0 / e_c0, beta);
@@ -326,46 +334,34 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
           and e > 0))
     return Outcome::reduce_step;
   const double soft = apex_stiffness * p_min;
-  const double stiff = p0 < p_min ? closing_stiffness(c, e) : 0;
-  const Apex apex = approach(c, p0, e, theta, soft, stiff);
-  if (apex.begin > 1)
-  {
-    End end{Tensor::Zero(), apex.p, Tensor2::Zero(), apex.p_D * one};
-    if (p0 > 0 and apex.p > 0)
-    {
-      end.s = (apex.p / p0) * s0;
-      end.s_D = s0 * (end.p_D / p0).transpose();
-    }
-    end.p -= p_t;
-    give(end, answer);
-    answer.effort.apex = 1;
-    q[0] = hypoplasticity::void_ratio(task, 1);
-    return Outcome::ok;
-  }
-
+  Apex apex;
+  if (p0 < p_min)
+    apex = approach(c, p0, e, theta, soft, closing_stiffness(c, e));
   task.begin = apex.begin;
   task.begin_D = apex.begin_D;
-  Track track{.T = -std::max(apex.p, p_min) * one, .h = Tensor::Zero()};
+  Track track{.T = -std::max(p0, p_min) * one, .h = Tensor::Zero()};
   if (p0 > 0)
-    track.T += (std::max(apex.p, p_min) / p0) * s0;
+    track.T += (std::max(p0, p_min) / p0) * s0;
   if (task.grains)
     track.h = mandel(Eigen::Map<const Voigt>(q.data() + 1));
   if (integrate(c, task, track) != Outcome::ok)
-    return Outcome::reduce_step;
-
-  double gap = apex.gap;
-  Tensor gap_D = (soft * track.opened_D);
-  if (gap > 0 and theta < 0)
   {
-    gap = std::max(0.0, gap + stiff * theta * (1 - apex.begin));
-    if (gap > 0)
-      gap_D += stiff * one;
+    answer.effort = track.effort;
+    return Outcome::reduce_step;
   }
-  End end = bring_down(track, gap + soft * track.opened, gap_D);
+  if (kind == TangentKind::continuum and apex.gap > 0)
+    track.T_D *= 1 - apex.begin;
+
+  const Tensor gap_D = soft * track.opened_D + apex.gap_D * one;
+  End end = bring_down(track, apex.gap + soft * track.opened, gap_D);
   end.p -= p_t;
   give(end, answer);
   answer.effort = track.effort;
   answer.effort.apex = track.effort.apex or p0 < p_min;
+  // The rates of the pressure fall with those of the volume; over a step that
+  // turns the path a long way the pressure may not.
+  if (kind == TangentKind::consistent and not(answer.dp_dtheta < 0))
+    return Outcome::reduce_step;
   q[0] = hypoplasticity::void_ratio(task, 1);
   if (task.grains)
   {

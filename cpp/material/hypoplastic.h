@@ -15,12 +15,13 @@ namespace mmale::material
 ///
 /// Zero stress. Pressures count from the apex, p + p_t. Between 2 p_min and
 /// p_min a growing share of any further fall is held back, so that the rates
-/// are never asked below p_min; what the volume then still grows lets the
+/// are never asked below p_min. What the volume then still grows lets the
 /// pressure fall with the small stiffness `apex_stiffness` p_min, through the
 /// apex and beyond, and takes the deviator to zero at the apex along a ray.
-/// Below p_min compression closes what is open: with the bulk stiffness of
-/// the law at p_min; but beyond the apex with void ratios above e_i, where
-/// grains do not touch, with the small stiffness.
+/// Compression from there closes the gap to p_min with the bulk stiffness that
+/// the law has at p_min, or with the small one while the void ratio is above
+/// e_i and grains do not touch. Of grains that touch in part, below p_min, the
+/// rates see that part of the strain.
 ///
 /// @source von Wolffersdorff (1996), Mech. Cohes.-Frict. Mater. 1, 251-271;
 /// Niemunis & Herle (1997), the same 2, 279-299
@@ -47,7 +48,8 @@ struct Hypoplastic
   double p_t = 0;              ///< cohesion: shift of the apex [Pa]
   double grain_density = required; ///< [kg/m3]
   double void_ratio = not_given;   ///< at the start, or:
-  double relative_density = not_given; ///< (e_c0 - e)/(e_c0 - e_d0) at the start
+  double relative_density =
+      not_given;              ///< (e_c0 - e)/(e_c0 - e_d0) at the start
   double p_min = 100;         ///< zero-stress floor, counted from the apex [Pa]
   double apex_stiffness = 10; ///< bulk stiffness beyond it, over p_min [-]
   double tolerance = 1e-4;    ///< of a sub-step, relative [-]

@@ -43,15 +43,15 @@ public:
     if (phase == Phase::turning)
       return _h_D + (t - _t) * Tensor2<4>::Identity();
     const Decay d(*this, c, D, size, t);
-    const Tensor2<4> by_n
-        = (Tensor2<4>::Identity() - d.n * d.n.transpose()) / size;
+    const Tensor2<4> by_n =
+        (Tensor2<4>::Identity() - d.n * d.n.transpose()) / size;
     const double lapse = (t - _t) / c.R;
     const Tensor<4> by_across = (-lapse * d.across) * d.n;
     const Tensor<4> by_part = by_n * _h + _h_D.transpose() * d.n;
-    const Tensor<4> by_along
-        = (d.slow - d.across) * by_part
-          + (d.part - c.R) * (-c.beta_R * lapse * d.slow) * d.n
-          - d.part * by_across;
+    const Tensor<4> by_along =
+        (d.slow - d.across) * by_part
+        + (d.part - c.R) * (-c.beta_R * lapse * d.slow) * d.n
+        - d.part * by_across;
     return d.along * by_n + d.n * by_along.transpose() + d.across * _h_D
            + _h * by_across.transpose();
   }
@@ -149,16 +149,12 @@ void Path<with_grains, Scheme>::enter()
   {
     const Tensor<4>& D = _task.D;
     const double along = _y.h.dot(D);
+    const double turned = _t - along / (_size * _size); // when h : D = 0
     Phase phase = Phase::growing;
-    if (along < 0)
+    if (turned > _t + 1e-12) // less is round-off: it has turned
     {
       phase = Phase::turning;
-      _until = std::min(1.0, _t - along / (_size * _size));
-      if (not(_until > _t + 1e-12)) // round-off: it has turned
-      {
-        phase = Phase::growing;
-        _until = 1;
-      }
+      _until = std::min(1.0, turned);
     }
     else if ((_y.h - (_c.R / _size) * D).norm() < _near)
       phase = Phase::aligned;
@@ -183,8 +179,7 @@ double Path<with_grains, Scheme>::first_size()
 /// @param[out] T, h at its end
 /// @return its error over the one allowed
 template <bool with_grains, class Scheme>
-double Path<with_grains, Scheme>::attempt(double dt, Tensor<4>& T,
-                                          Tensor<4>& h)
+double Path<with_grains, Scheme>::attempt(double dt, Tensor<4>& T, Tensor<4>& h)
 {
   for (int i = 1; i < n; ++i)
   {
@@ -251,8 +246,8 @@ void Path<with_grains, Scheme>::carry_slopes(double dt)
     _rate[i].slopes(_c, _T[i], _task.D, _size, s);
     T_D[i].noalias() = s.by_T * T_here;
     T_D[i] += s.by_D;
-    T_D[i].template leftCols<3>().colwise()
-        += ((1 + void_ratio(_task, _time[i])) * _time[i]) * s.by_e;
+    T_D[i].template leftCols<3>().colwise() +=
+        ((1 + void_ratio(_task, _time[i])) * _time[i]) * s.by_e;
     if constexpr (with_grains)
     {
       if (growing())
@@ -271,8 +266,8 @@ void Path<with_grains, Scheme>::carry_slopes(double dt)
       const double p = _rate[i].p;
       const double x = std::clamp(2 - p / _c.floor, 0.0, 1.0);
       const double by_p = x < 1 ? -2 * x / _c.floor : 0;
-      const Tensor<4> p_D
-          = -T_here.template topRows<3>().colwise().sum().transpose() / 3;
+      const Tensor<4> p_D =
+          -T_here.template topRows<3>().colwise().sum().transpose() / 3;
       _y.opened_D += (dt * Scheme::b[i])
                      * (_rate[i].landing * one + _task.theta * by_p * p_D);
     }
@@ -305,11 +300,10 @@ bool Path<with_grains, Scheme>::hold_in_range(const Tensor<4>& Td)
     if (_task.kind == TangentKind::consistent)
     {
       const double by_share = 2 * share * q * A - k2 * cubic * I;
-      const Tensor<4> by_Td
-          = (-1 / by_share) * (2 * k2 * A * Td - k3 * I * Td2);
+      const Tensor<4> by_Td =
+          (-1 / by_share) * (2 * k2 * A * Td - k3 * I * Td2);
       const Eigen::RowVector4d tr_D = _y.T_D.topRows<3>().colwise().sum();
-      const Tensor2<4> Td_D
-          = (_y.T_D - (_y.T / tr) * tr_D) / tr;
+      const Tensor2<4> Td_D = (_y.T_D - (_y.T / tr) * tr_D) / tr;
       const Eigen::RowVector4d share_D = by_Td.transpose() * Td_D;
       _y.T_D = (share * tr) * Td_D + Td * (tr * share_D + share * tr_D)
                + (unit<4>() / 3) * tr_D;
@@ -342,8 +336,7 @@ void Path<with_grains, Scheme>::begin_slopes()
     _y.h_D = -_rate[0].grains.rate * begin_D;
     _known.start(_known.phase, _t, _y.h, _y.h_D);
   }
-  _y.opened_D
-      = (-_rate[0].landing * _task.theta) * begin_D.transpose();
+  _y.opened_D = (-_rate[0].landing * _task.theta) * begin_D.transpose();
 }
 
 /// Derivatives other than true ones, from the rates at hand.
@@ -382,10 +375,12 @@ Outcome Path<with_grains, Scheme>::run()
     const double error = attempt(step, T, h);
     if (not(error <= 1))
     {
-      dt = step * std::min(0.5, std::isnan(error) ? 0.25 : runge_kutta::resize(error, Scheme::order));
+      dt = step
+           * std::min(0.5, std::isnan(error)
+                               ? 0.25
+                               : runge_kutta::resize(error, Scheme::order));
       ++_y.effort.rejected;
-      if (not(dt > 1e-13)
-          or _y.effort.rejected > _task.max_substeps)
+      if (not(dt > 1e-13) or _y.effort.rejected > _task.max_substeps)
         return Outcome::reduce_step;
       continue;
     }
@@ -397,8 +392,7 @@ Outcome Path<with_grains, Scheme>::run()
       if (_rate[i].landing > 0)
       {
         landed = true;
-        _y.opened
-            += step * Scheme::b[i] * _rate[i].landing * _task.theta;
+        _y.opened += step * Scheme::b[i] * _rate[i].landing * _task.theta;
       }
     _t = last ? _until : _t + step;
     _y.T = T;

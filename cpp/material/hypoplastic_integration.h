@@ -12,11 +12,11 @@ namespace mmale::material::hypoplasticity
 /// What the integration is to do.
 struct Task
 {
-  Tensor<4> D;        ///< strain of the step
-  double theta = 0;   ///< its trace
-  double e = 0;       ///< void ratio at time 0
-  double begin = 0;   ///< time to begin at
-  double begin_D = 0; ///< its derivative by theta
+  Tensor<4> D;         ///< strain of the step
+  double theta = 0;    ///< its trace
+  double e = 0;        ///< void ratio at time 0
+  double begin = 0;    ///< time to begin at
+  double begin_D = 0;  ///< its derivative by theta
   bool grains = false; ///< with intergranular strain
   TangentKind kind = TangentKind::consistent;
   double tolerance = 0;

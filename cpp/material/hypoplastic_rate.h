@@ -43,12 +43,10 @@ inline Tensor<4> squared(const Tensor<4>& x)
 inline Tensor<6> squared(const Tensor<6>& x)
 {
   const double a = x[3], b = x[4], c = x[5], r = std::sqrt(0.5);
-  return Tensor<6>{{x[0] * x[0] + 0.5 * (a * a + c * c),
-                    x[1] * x[1] + 0.5 * (a * a + b * b),
-                    x[2] * x[2] + 0.5 * (b * b + c * c),
-                    a * (x[0] + x[1]) + r * b * c,
-                    b * (x[1] + x[2]) + r * a * c,
-                    c * (x[0] + x[2]) + r * a * b}};
+  return Tensor<6>{
+      {x[0] * x[0] + 0.5 * (a * a + c * c), x[1] * x[1] + 0.5 * (a * a + b * b),
+       x[2] * x[2] + 0.5 * (b * b + c * c), a * (x[0] + x[1]) + r * b * c,
+       b * (x[1] + x[2]) + r * a * c, c * (x[0] + x[2]) + r * a * b}};
 }
 
 /// The law's constants, and what follows from them once.
@@ -70,12 +68,12 @@ struct Sand
 /// Factors of pressure and void ratio, and their derivatives.
 struct Factors
 {
-  double f_s = 0;         ///< f_b f_e [Pa]
-  double dp = 0, de = 0;  ///< derivatives of ln f_s
-  double f_d = 0;         ///< 0 where the sand is as dense as can be
-  double fd_p = 0;        ///< its derivative by the pressure
-  double fd_e = 0;        ///< and by the void ratio
-  bool clipped = false;   ///< void ratio taken at a limit
+  double f_s = 0;        ///< f_b f_e [Pa]
+  double dp = 0, de = 0; ///< derivatives of ln f_s
+  double f_d = 0;        ///< 0 where the sand is as dense as can be
+  double fd_p = 0;       ///< its derivative by the pressure
+  double fd_e = 0;       ///< and by the void ratio
+  bool clipped = false;  ///< void ratio taken at a limit
 };
 
 /// A void ratio outside [e_d, e_i] counts as the limit. Departure: f_d has an
@@ -128,8 +126,8 @@ inline Factors factors(const Sand& c, double p, double e)
 template <int N>
 struct Lode
 {
-  double q = 0;      ///< Td . Td
-  double cubic = 0;  ///< tr Td^3
+  double q = 0;     ///< Td . Td
+  double cubic = 0; ///< tr Td^3
   double F = 1;
   Tensor<N> by_Td = Tensor<N>::Zero(); ///< derivative of F
 };
@@ -173,8 +171,8 @@ struct Grains
   Tensor<N> rate = Tensor<N>::Zero();
 };
 
-/// @param[in] along which of the law's two cases: hd : D > 0. They meet where it
-/// is 0, but their derivatives do not.
+/// @param[in] along which of the law's two cases: hd : D > 0. They meet where
+/// it is 0, but their derivatives do not.
 template <int N>
 Grains<N> grains(const Sand& c, const Tensor<N>& h, const Tensor<N>& D,
                  bool along)
@@ -242,9 +240,8 @@ struct Rate
   /// @param[in] h intergranular strain; not looked at without it
   /// @param[in] D strain rate; `size` its norm
   /// @param[in] along of `grains`
-  void evaluate(const Sand& c, const Tensor<N>& T, double e,
-                const Tensor<N>& h, const Tensor<N>& D, double size,
-                bool along);
+  void evaluate(const Sand& c, const Tensor<N>& T, double e, const Tensor<N>& h,
+                const Tensor<N>& D, double size, bool along);
 
   /// The derivatives, with the same arguments.
   void slopes(const Sand& c, const Tensor<N>& T, const Tensor<N>& D,
@@ -287,8 +284,7 @@ void Rate<N, with_grains>::evaluate(const Sand& c, const Tensor<N>& T, double e,
   if constexpr (with_grains)
   {
     grains = hypoplasticity::grains<N>(c, h, D, along);
-    _g = grains.stiff * D
-         + (grains.turn * grains.w * grains.s) * grains.hd;
+    _g = grains.stiff * D + (grains.turn * grains.w * grains.s) * grains.hd;
     _k = along ? grains.w * grains.s : 0;
   }
   else
@@ -326,19 +322,17 @@ void Rate<N, with_grains>::slopes(const Sand& c, const Tensor<N>& T,
   const Tensor<N> n = (_fs * a * F) * (Th + Td); // N
   // change of f_s, F, T/tr T and f_d in turn; that of T/tr T is
   // (dT - Th tr dT)/tr
-  const Tensor<N> of_fs
-      = (-2 / (square * tr)) * (Th - square * one) - (factor.dp / 3) * one;
-  const Tensor<N> of_F
-      = (1 / tr) * (lode.by_Td - lode.by_Td.dot(Th) * one);
-  const Tensor<N> with_F
-      = _fs * (2 * F * _g + (K * a) * (Th + Td));
+  const Tensor<N> of_fs =
+      (-2 / (square * tr)) * (Th - square * one) - (factor.dp / 3) * one;
+  const Tensor<N> of_F = (1 / tr) * (lode.by_Td - lode.by_Td.dot(Th) * one);
+  const Tensor<N> with_F = _fs * (2 * F * _g + (K * a) * (Th + Td));
   const double ratio = _fs * (a * a * _A + 2 * K * a * F) / tr;
   const Tensor<N> lean = (_fs * a * a / tr) * Th;
   out.by_T.noalias() = _free * of_fs.transpose();
   out.by_T.noalias() += with_F * of_F.transpose();
   out.by_T.noalias() += lean * (_g - _A * one).transpose();
-  out.by_T.template leftCols<3>().colwise()
-      -= ratio * Th + (_k * factor.fd_p / 3) * n;
+  out.by_T.template leftCols<3>().colwise() -=
+      ratio * Th + (_k * factor.fd_p / 3) * n;
   out.by_T.diagonal().array() += ratio;
   out.by_e = factor.de * _free + (_k * factor.fd_e) * n;
 
@@ -382,8 +376,8 @@ void Rate<N, with_grains>::grain_slopes(const Sand& c, const Tensor2<N>& L,
   const double size = r.rho * c.R;
   const Tensor<N> across = D - r.s * r.hd;
   const double turn = r.turn * r.w * r.s / size;
-  out.by_h.noalias()
-      = ((c.chi * r.w / size) * by_w - turn * Lh) * r.hd.transpose();
+  out.by_h.noalias() =
+      ((c.chi * r.w / size) * by_w - turn * Lh) * r.hd.transpose();
   out.by_h.noalias() += (by_s / size) * across.transpose();
   out.by_h += turn * L;
   if (not r.along)
@@ -393,10 +387,10 @@ void Rate<N, with_grains>::grain_slopes(const Sand& c, const Tensor2<N>& L,
   }
   out.h_by_D.noalias() -= r.decay * r.hd * r.hd.transpose();
   const double hold = r.decay * r.s / size;
-  out.h_by_h.noalias() = r.hd
-                         * ((hold - r.by_rho * r.s / c.R) * r.hd
-                            - (r.decay / size) * across)
-                               .transpose();
+  out.h_by_h.noalias() =
+      r.hd
+      * ((hold - r.by_rho * r.s / c.R) * r.hd - (r.decay / size) * across)
+            .transpose();
   out.h_by_h.diagonal().array() -= hold;
 }
 
@@ -419,7 +413,8 @@ void Rate<N, with_grains>::floor_slopes(const Sand& c, const Tensor<N>& T,
   if constexpr (with_grains)
     mind(out.by_h);
   const double x = std::clamp(2 - p / c.floor, 0.0, 1.0);
-  const double by_p = _fall * (-2 * x / c.floor * (x < 1) / p - landing / (p * p));
+  const double by_p =
+      _fall * (-2 * x / c.floor * (x < 1) / p - landing / (p * p));
   out.by_T.noalias() += (by_p / 3) * T * one.transpose();
   out.by_T.diagonal().array() -= landing * _fall / p;
 }

@@ -90,6 +90,8 @@ def draw_panel(ax, panel, runs, sheet, data):
         )
     if panel["log_x"]:
         ax.set_xscale("log")
+    else:
+        ax.locator_params(axis="x", nbins=7)
     # Consolidation curves fall with pressure, as in a textbook.
     if panel["y"] == "eps_v" and panel["log_x"]:
         ax.invert_yaxis()

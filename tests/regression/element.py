@@ -6,6 +6,7 @@ LIBRARIES is the folder of the tests' own UMATs.
 """
 
 import csv
+import re
 import shutil
 import sys
 import tempfile
@@ -164,6 +165,27 @@ def umat():
     hold(abs(float(last["state_1"]) - 0.1) < 1e-8, f"STATEV {last['state_1']}")
     said = finish([*program, "material.library=libmetall.so"], 1, cwd=folder)
     hold("metal.toml:1: material: library: no such file" in said, "1: no library")
+
+
+def umat_scene():
+    """A scene with a UMAT runs as with our own law: Cook's membrane."""
+    shutil.copy(LIBRARIES / "elastic.so", WORK / "hooke.so")
+    text = (DEMOS / "cook_membrane" / "scene.toml").read_text()
+    own = re.search(r"\[material\.(\w+)\]\n(?:.+\n)+", text)
+    number = {
+        key: re.search(rf"^{key} = (\S+)", own[0], re.M)[1]
+        for key in ("E", "nu", "density")
+    }
+    theirs = f'[material.{own[1]}]\nlaw = "umat"\nlibrary = "hooke.so"\nstates = 0\n'
+    theirs += f"props = [{number['E']}, {number['nu']}]\n"
+    theirs += f"density = {number['density']}\n"
+    ends = []
+    for name, scene in (("own", text), ("umat", text.replace(own[0], theirs))):
+        (WORK / f"{name}.toml").write_text(scene)
+        finish([str(PROGRAM), "run", f"{name}.toml", "--quiet"], 0, cwd=WORK)
+        ends.append(float(rows(WORK / "results" / name)[-1]["v"]))
+    # the same law in another tongue; Newton stops at 1e-8
+    hold(abs(ends[1] / ends[0] - 1) < 1e-7, f"v = {ends[0]} and {ends[1]}")
 
 
 def main():

@@ -67,8 +67,7 @@ struct Element
     const double theta = strain.head<3>().sum();
     history = q;
     return law.update({sigma + p() * one, p(), q},
-                      {strain - theta / 3 * one, theta, 1}, kind, history,
-                      out);
+                      {strain - theta / 3 * one, theta, 1}, kind, history, out);
   }
 
   /// Strain by an increment, engineering shear.

@@ -17,14 +17,15 @@ using mmale::test::sand;
 
 namespace
 {
+const Voigt one(1, 1, 1, 0);
+
 /// Somewhere a few random steps from an isotropic state.
 Element wandered(Random& random, bool grains, double p, double tolerance)
 {
   const double e = 0.78 + 0.2 * random.unit();
   Element element(sand("hochstetten", e, grains, tolerance), p);
   for (int k = 0; k < 5; ++k)
-    element.strain(random.deviator(3e-4, 2)
-                   + 5e-5 * random.unit() * Voigt(1, 1, 1, 0));
+    element.strain(random.deviator(3e-4, 2) + 5e-5 * random.unit() * one);
   return element;
 }
 
@@ -35,7 +36,7 @@ Eigen::Vector<double, 5> after(const Element& element, const Voigt& strain)
   Response a;
   REQUIRE(element.answer(strain, q, a) == Outcome::ok);
   Eigen::Vector<double, 5> out;
-  out << a.s - a.p * Voigt(1, 1, 1, 0), a.flow;
+  out << a.s - a.p * one, a.flow;
   return out;
 }
 } // namespace
@@ -49,39 +50,41 @@ TEST_CASE("hypoplastic: the consistent tangent is the derivative of the update",
   const double strain = 3e-4;
   INFO(grains << " " << p << " Pa, " << scheme);
   Random random(1);
-  double worst = 0;
-  int kinks = 0;
-  constexpr int trials = 40;
-  for (int trial = 0; trial < trials; ++trial)
+  double worst = 0, continuum = 0;
+  for (int trial = 0; trial < 40; ++trial)
   {
     Element element = wandered(random, grains, p, 1e-6);
     element.law.integrator = scheme;
     element.law.tolerance = scheme == "heun" ? 1e-7 : 1e-10;
-    const Voigt step = random.deviator(strain, 2)
-                       + 0.2 * strain * random.unit() * Voigt(1, 1, 1, 0);
-    const Voigt d = random.deviator(strain, 2)
-                    + 0.3 * strain * random.unit() * Voigt(1, 1, 1, 0);
-    std::vector<double> q;
-    Response a;
-    REQUIRE(element.answer(step, q, a) == Outcome::ok);
-    Eigen::Vector<double, 5> exact;
+    const Voigt step =
+        random.deviator(strain, 2) + 0.2 * strain * random.unit() * one;
+    const Voigt d =
+        random.deviator(strain, 2) + 0.3 * strain * random.unit() * one;
     const double theta = d.head<3>().sum();
-    const Voigt dd = d - theta / 3 * Voigt(1, 1, 1, 0);
-    exact << test::stiffness(a) * d,
-        a.dflow_de.dot(dd) + a.dflow_dtheta * theta;
+    const Voigt de = d - theta / 3 * one;
+    std::vector<double> q;
+    Response a, b;
+    REQUIRE(element.answer(step, q, a) == Outcome::ok);
     CHECK(a.dp_dtheta < 0);
     constexpr double h = 1e-3;
-    const Eigen::Vector<double, 5> right = after(element, step + h * d),
-                                   left = after(element, step - h * d),
-                                   centre = after(element, step);
-    const Eigen::Vector<double, 5> slope = (right - left) / (2 * h);
-    const auto m = element.law.moduli({a.s, a.p, q}, 1);
-    const double size = m.K * strain;
-    Eigen::Vector<double, 5> miss = slope - exact, bend = (right - 2 * centre + left) / h;
+    const Eigen::Vector<double, 5> slope =
+        (after(element, step + h * d) - after(element, step - h * d)) / (2 * h);
+    Eigen::Vector<double, 5> miss = slope;
+    miss.head<4>() -= test::stiffness(a) * d;
+    miss[4] -= a.dflow_de.dot(de) + a.dflow_dtheta * theta;
+    const double size = element.law.moduli({a.s, a.p, q}, 1).K * strain;
     miss.head<4>() /= size;
-    bend.head<4>() /= size;
-    if (miss.norm() > 1e-5) WARN(trial << " " << miss.transpose() << " | " << bend.norm());
     worst = std::max(worst, miss.norm());
+
+    element.kind = TangentKind::continuum;
+    REQUIRE(element.answer(step, q, b) == Outcome::ok);
+    CHECK((b.s - a.s).norm() == 0);
+    const Voigt other = slope.head<4>() - test::stiffness(b) * d;
+    continuum = std::max(continuum, other.norm() / size);
   }
-  CHECK(worst < 1e-4);
+  // Central differences over a thousandth of the step: some 1e-6 of truncation,
+  // and what the sequence of sub-steps adds. Near the floor the rates have a
+  // kink, where the pressure begins to fall.
+  CHECK(worst < (p < 1e3 ? 1e-3 : 5e-5));
+  CHECK(continuum > 0.02);
 }

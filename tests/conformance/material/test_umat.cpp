@@ -197,6 +197,33 @@ TEST_CASE("umat: a routine without a tangent cannot be driven by pressure, and "
         == Outcome::reduce_step);
 }
 
+TEST_CASE("umat: nearly incompressible, where deviators round off more than "
+          "pressure has digits, it is driven by pressure",
+          "[conformance][material][umat]")
+{
+  const AnyLaw law = umat("elastic.so", {1e9, 0.4999}, 0);
+  const State start = begin(law);
+  const double K = 1e9 / (3 * (1 - 2 * 0.4999));
+  Random random(2);
+  for (int trial = 0; trial < 100; ++trial)
+  {
+    const Voigt de = random.deviator(1e-3, 2);
+    const double p = 10 * random.unit();
+    Driven driven;
+    std::vector<double> q = start.q;
+    REQUIRE(std::visit(
+                [&](const auto& l)
+                {
+                  return drive(l, {start.s, start.p, start.q}, de, p, 1, NAN,
+                               TangentKind::consistent, q, driven);
+                },
+                law)
+            == Outcome::ok);
+    // three strains of 1e-3, summed
+    CHECK(std::abs(driven.theta + p / K) <= 10 * eps * 1e-3);
+  }
+}
+
 TEST_CASE("umat: what a routine writes into its input stays with it",
           "[conformance][material][umat]")
 {

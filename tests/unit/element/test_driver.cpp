@@ -55,6 +55,19 @@ TEST_CASE("triaxial, drained: E along the axis, nu across, whichever is given",
   }
 }
 
+TEST_CASE("triaxial at constant mean pressure: no volume strain, 3 G",
+          "[element]")
+{
+  const End end = run(elastic_path("kind = \"triaxial\"\nhold = \"p\"\n"
+                                   "q = 90e3"));
+  CHECK(end.p() == Approx(100e3));
+  CHECK(end.q() == Approx(90e3));
+  CHECK(end.sigma_r() == Approx(70e3));
+  CHECK(end.sigma_t() == Approx(70e3));
+  CHECK(end.eps_a() == Approx(90e3 / (3 * G)));
+  CHECK(std::abs(end.eps_v()) < 1e-12);
+}
+
 TEST_CASE("triaxial, undrained: q = 3 G eps_a, p' stays, the water takes q/3",
           "[element]")
 {
