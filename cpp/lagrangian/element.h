@@ -82,6 +82,7 @@ public:
   /// the order of the step's strain and of stress over stiffness.
   bool symmetric() const;
 
+  bool fluid() const { return _fluid; } ///< its deviator has no memory
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
   double density() const;

@@ -162,6 +162,36 @@ def spherical_cavity_fine():
     checks_hold(folder)
 
 
+def grout_channel():
+    """Bingham's plug between plates and in a pipe, its speed and the discharge."""
+    runs = {}
+    for symmetry, stress in (("plane_strain", 4), ("axisymmetric", 2)):
+        words = [f"symmetry={symmetry}", f"material.grout.yield_stress={stress}"]
+        folder, _ = run("grout_channel", *words, results=symmetry)
+        with open(sorted((folder / "lines").glob("*.csv"))[-1], newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        runs[symmetry] = [
+            [float(row[key]) for row in rows] for key in ("x", "velocity_y")
+        ]
+    # errors of 40 cells across and of the plug's creep: 0.06 and 0.17 % in the
+    # plug, 3e-5 and 2e-4 in the discharge
+    for symmetry, plug, Q, worst in (
+        ("plane_strain", 0.36, 0.0576 / 2, 8e-4),
+        ("axisymmetric", 0.18, 3.732212e-3 / (2 * math.pi), 2.5e-3),
+    ):
+        x, v = runs[symmetry]
+        weight = x if symmetry == "axisymmetric" else [1.0] * len(x)
+        flow = sum(
+            (x[i + 1] - x[i]) * (weight[i] * v[i] + weight[i + 1] * v[i + 1]) / 2
+            for i in range(len(x) - 1)
+        )
+        hold(abs(v[0] / plug - 1) < worst, f"{symmetry}: plug {v[0]:.5f} m/s")
+        hold(abs(flow / Q - 1) < 5e-4, f"{symmetry}: discharge {flow / Q - 1:+.2e}")
+        # within 0.04 m all move alike, but for the creep
+        slip = max(abs(b - v[0]) for a, b in zip(x, v) if a < 0.037) / plug
+        hold(slip < 5e-3, f"{symmetry}: the plug is sheared by {slip:.1e}")
+
+
 def lame_stress_error(folder):
     """RMS over samples of a radius, radial and hoop, for 1 Pa inside."""
     last = sorted((folder / "lines").glob("radius_*.csv"))[-1]
