@@ -121,6 +121,7 @@ public:
   /// Has the law a zero-stress floor? Then it is counted where it acts.
   bool has_floor() const;
 
+  bool fluid() const { return _fluid; } ///< its deviator has no memory
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
 

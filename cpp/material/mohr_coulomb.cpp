@@ -57,6 +57,7 @@ struct Returned
 {
   Principal sigma;
   Principal2 slope;
+  double p = 0;   ///< its pressure, without the round-off of shear [Pa]
   double gap = 0; ///< volume strain beyond the floor [-]
   bool plastic = false;
 };
@@ -162,6 +163,10 @@ private:
     r.plastic = true;
     r.sigma = trial - DB * lambda;
     r.slope = Principal2::Identity() - DB * M;
+    double dilation = 0;
+    for (int i = 0; i < set.size; ++i)
+      dilation += lambda[i] * _plane[set.face[i]].flow.sum();
+    r.p = _K * dilation - trial.mean();
     const double violation =
         std::max(-2 * _G * lambda.minCoeff(), this->excess(r.sigma));
     if (set.has_floor())
@@ -171,6 +176,7 @@ private:
       r.gap = lambda[set.size - 1];
       if (set.size == 3 and _pointed)
         r.sigma.setConstant(-floor()); // without the trial's round-off
+      r.p = floor() - softness * r.gap;
       r.sigma.array() += softness * r.gap;
       r.slope += Principal::Constant(softness) * M.row(set.size - 1);
     }
@@ -279,7 +285,7 @@ Outcome MohrCoulomb::update(const Point& start, const Strain& step,
       2 * G * Principal2::Identity() + Principal2::Constant(K - 2 * G / 3);
   split(axes.assemble(values),
         axes.assemble(Principal2(slope * elastic), G * turn), answer);
-  answer.p += std::isinf(floor) ? aside : Gap::gap_share * aside;
+  answer.p = r.p + (std::isinf(floor) ? aside : Gap::gap_share * aside);
   answer.effort.apex = r.gap > 0;
   if (kind == TangentKind::robust)
   {

@@ -158,7 +158,8 @@ public:
   void operator()(const Key& key, std::optional<TimeSeries>& series)
   {
     if (const Node* node = find(key.name))
-      this->series(*node, under(_path, key.name), series.emplace());
+      if (not this->series(*node, under(_path, key.name), series.emplace()))
+        series.reset(); // what has no values is not looked at any further
   }
 
   void operator()(const Key& key,

@@ -38,8 +38,10 @@ Response answer(const L& law, const Body& from, const Voigt& strain,
   const Voigt de = strain - theta / 3 * Voigt(1, 1, 1, 0);
   Response r;
   q = from.q;
-  REQUIRE(law.update({from.s, from.p, from.q}, {de, theta, dt}, kind, q, r)
-          == material::Outcome::ok);
+  // not a REQUIRE: there are a million of these
+  if (law.update({from.s, from.p, from.q}, {de, theta, dt}, kind, q, r)
+      != material::Outcome::ok)
+    FAIL("the law asks for a smaller step");
   return r;
 }
 
