@@ -329,13 +329,18 @@ std::vector<double> Monitor::effective_stress() const
 void Monitor::add_water_fields(std::vector<output::NamedField>& out)
 {
   using output::Location;
-  auto& [p_w, porosity, effective] = _of_water;
+  auto& [p_w, porosity, effective, p] = _of_water;
   p_w = pore_pressure();
   porosity = water(1);
   effective = effective_stress();
   out.push_back({"pore_pressure", Location::nodal, 1, p_w, "Pa"});
   out.push_back({"porosity", Location::cell, 1, porosity, ""});
+  p.resize(porosity.size());
+  for (std::size_t c = 0; c < p.size(); ++c)
+    p[c] =
+        -(effective[4 * c] + effective[4 * c + 1] + effective[4 * c + 2]) / 3;
   out.push_back({"effective_stress", Location::cell, 4, effective, "Pa"});
+  out.push_back({"effective_pressure", Location::cell, 1, p, "Pa"});
 }
 
 /// Means over the points of the cells; `size` numbers a point.

@@ -79,6 +79,7 @@ private:
   double _seeped = 0;               ///< mass of water that flowed in
   double _lagrangian_volume = 0;    ///< change by the material's own motion
   std::vector<double> _derived[3];  ///< von Mises, stress, history
-  std::vector<double> _of_water[3]; ///< p_w, porosity, effective stress
+  std::vector<double> _of_water[4]; ///< p_w, porosity, effective stress and
+                                    ///< pressure
 };
 } // namespace mmale
