@@ -350,7 +350,6 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
   if (not(task.D.allFinite() and s0.allFinite() and std::isfinite(p0)
           and e > 0))
     return Outcome::reduce_step;
-  const double G = moduli(start, step.dt).G;
   const double soft = apex_stiffness * p_min;
   Apex apex;
   if (p0 < p_min)
@@ -370,6 +369,8 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
   if (kind == TangentKind::continuum and apex.gap > 0)
     track.T_D *= 1 - apex.begin;
 
+  // the moduli at the start are at hand, unless grains came to touch later
+  const double G = apex.begin > 0 ? moduli(start, step.dt).G : track.G;
   const Tensor gap_D = soft * track.opened_D + apex.gap_D * one;
   End end = bring_down(track, apex.gap + soft * track.opened, gap_D);
   end.p -= p_t;

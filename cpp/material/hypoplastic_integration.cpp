@@ -91,6 +91,7 @@ public:
   {
     // an error in h is one of second order where the closed form takes over
     _near = std::min(0.03, 0.3 * std::sqrt(task.tolerance)) * sand.R;
+    _share = std::pow(10 * task.tolerance, 1.0 / Scheme::order);
   }
 
   Outcome run();
@@ -102,7 +103,9 @@ private:
   const Sand& _c;
   const Task& _task;
   Track& _y;
-  double _size, _t, _near;
+  double _size, _t;
+  double _near;  ///< distance from R D/|D| that counts as aligned
+  double _share; ///< relative change that a sub-step may make, about
   Known _known;
   double _until = 1; ///< end of the phase
 
@@ -131,8 +134,11 @@ private:
 
   /// Which phase of intergranular strain comes next, and until when.
   void enter();
-  /// Largest size of a sub-step that growing h allows, from rest or in all.
-  double reach(double rho) const { return rho * _c.R / _size; }
+  /// Size of a sub-step that h allows where it begins to turn or to grow.
+  double reach() const
+  {
+    return 1.3 * _share * std::max(_y.h.norm(), _c.core * _c.R) / _size;
+  }
   double first_size();
   double attempt(double dt, Tensor<4>& T, Tensor<4>& h);
   void carry_slopes(double dt);
@@ -166,12 +172,10 @@ void Path<with_grains, Scheme>::enter()
 template <bool with_grains, class Scheme>
 double Path<with_grains, Scheme>::first_size()
 {
-  const double allowed = std::pow(10 * _task.tolerance, 1.0 / Scheme::order)
-                         * _T[0].norm() / _rate[0].stress.norm();
-  double dt = std::min(1.0, allowed);
+  double dt = std::min(1.0, _share * _T[0].norm() / _rate[0].stress.norm());
   if constexpr (with_grains)
-    if (growing())
-      dt = std::min(dt, reach(std::max(_rate[0].grains.rho, _c.core)));
+    if (_known.phase != Phase::aligned)
+      dt = std::min(dt, reach());
   return dt;
 }
 
@@ -242,7 +246,8 @@ void Path<with_grains, Scheme>::carry_slopes(double dt)
       break; // its weight is 0
     Tensor2<4> T_here = _y.T_D, h_here = _y.h_D;
     for (int j = 0; j < i; ++j)
-      T_here += (dt * Scheme::a[i - 1][j]) * T_D[j];
+      if (Scheme::a[i - 1][j] != 0)
+        T_here += (dt * Scheme::a[i - 1][j]) * T_D[j];
     _rate[i].slopes(_c, _T[i], _task.D, _size, s);
     T_D[i].noalias() = s.by_T * T_here;
     T_D[i] += s.by_D;
@@ -253,7 +258,8 @@ void Path<with_grains, Scheme>::carry_slopes(double dt)
       if (growing())
       {
         for (int j = 0; j < i; ++j)
-          h_here += (dt * Scheme::a[i - 1][j]) * h_D[j];
+          if (Scheme::a[i - 1][j] != 0)
+            h_here += (dt * Scheme::a[i - 1][j]) * h_D[j];
         h_D[i].noalias() = s.h_by_h * h_here;
         h_D[i] += s.h_by_D;
       }
@@ -356,6 +362,7 @@ Outcome Path<with_grains, Scheme>::run()
   if (_size > 0)
     enter();
   begin_stages();
+  _y.G = _rate[0].shear_modulus(_c);
   if (_task.kind == TangentKind::robust or not(_size > 0))
     rate_slopes();
   if (not(_size > 0))
@@ -367,7 +374,7 @@ Outcome Path<with_grains, Scheme>::run()
   while (_t < 1)
   {
     if (growing())
-      dt = std::min(dt, reach(2)); // where the formulas are stable
+      dt = std::min(dt, 2 * _c.R / _size); // where the formulas are stable
     const double left = _until - _t;
     const bool last = not(dt < left * (1 - 1e-12));
     const double step = last ? left : dt;
@@ -411,7 +418,7 @@ Outcome Path<with_grains, Scheme>::run()
         enter();
       changed = changed or _known.phase != before;
       if (_known.phase == Phase::growing and before == Phase::turning)
-        dt = std::min(dt, reach(std::max(_y.h.norm() / _c.R, _c.core)));
+        dt = std::min(dt, reach());
     }
     if (Scheme::carries and not changed)
     {
