@@ -20,8 +20,8 @@ struct StepLog
   int iterations = 0; ///< of Newton, those of failed parts too
   int parts = 0;      ///< the step was done in
   int rejected = 0;   ///< parts that failed and were halved
-  material::Effort effort;
-  std::string cause; ///< why a part failed, the last time
+  material::Effort effort = {};
+  std::string cause = {}; ///< why a part failed, the last time
 };
 
 /// One path, step by step.

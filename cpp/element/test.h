@@ -31,7 +31,7 @@ struct Data
   std::string file = {};   ///< columns named as in curves.csv
   std::string folder = {}; ///< where a relative `file` starts; no key: the
                            ///< reader puts the test's own folder
-  std::string x = {}; ///< abscissa; "": the file's first column
+  std::string x = {};      ///< abscissa; "": the file's first column
 };
 
 /// One loading. Strains count from its start; stresses are those at its end,

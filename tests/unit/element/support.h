@@ -50,7 +50,7 @@ inline const std::string isotropic_start = "[initial]\npressure = 100e3\n";
 struct End
 {
   State state;
-  StepLog log;
+  StepLog log = {};
   bool completed = true;
 
   double sigma_a() const { return -state.stress[1]; }
