@@ -114,10 +114,7 @@ End bring_down(const Track& track, double gap, const Tensor& gap_D)
   return out;
 }
 
-/// @param[in] s0 deviator at the start, Mandel [Pa]
-/// @param[in] G  shear modulus at the start [Pa]
-void give(const End& end, const Tensor& s0, const Tensor& de, double G,
-          Response& answer)
+void give(const End& end, Response& answer)
 {
   const auto engineering = [](Tensor x)
   {
@@ -132,22 +129,6 @@ void give(const End& end, const Tensor& s0, const Tensor& de, double G,
   answer.ds_dtheta = engineering(end.s_D * one / 3);
   answer.dp_de = engineering(end.p_D);
   answer.dp_dtheta = end.p_D.dot(one) / 3;
-
-  // 2 G times the part of the shear strain that left no stress, along s
-  constexpr double max_flow = 10; // a bubble has nothing left to stabilise
-  const double size2 = end.s.squaredNorm();
-  if (not(size2 > 0))
-    return;
-  const Tensor left = 2 * G * de - (end.s - s0);
-  const double flow = left.dot(end.s) / size2;
-  answer.flow = std::clamp(flow, 0.0, max_flow);
-  if (not(flow > 0 and flow < max_flow))
-    return;
-  const Tensor along = (left - (1 + 2 * flow) * end.s) / size2;
-  Tensor flow_D = end.s_D.transpose() * along;
-  answer.dflow_dtheta = flow_D.dot(one) / 3;
-  flow_D += (2 * G / size2) * end.s;
-  answer.dflow_de = engineering(flow_D);
 }
 } // namespace
 
@@ -369,12 +350,10 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
   if (kind == TangentKind::continuum and apex.gap > 0)
     track.T_D *= 1 - apex.begin;
 
-  // the moduli at the start are at hand, unless grains came to touch later
-  const double G = apex.begin > 0 ? moduli(start, step.dt).G : track.G;
   const Tensor gap_D = soft * track.opened_D + apex.gap_D * one;
   End end = bring_down(track, apex.gap + soft * track.opened, gap_D);
   end.p -= p_t;
-  give(end, s0, de, G, answer);
+  give(end, answer);
   answer.effort = track.effort;
   answer.effort.apex = track.effort.apex or p0 < p_min;
   // The rates of the pressure fall with those of the volume; over a step that

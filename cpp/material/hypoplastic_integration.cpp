@@ -362,7 +362,6 @@ Outcome Path<with_grains, Scheme>::run()
   if (_size > 0)
     enter();
   begin_stages();
-  _y.G = _rate[0].shear_modulus(_c);
   if (_task.kind == TangentKind::robust or not(_size > 0))
     rate_slopes();
   if (not(_size > 0))
