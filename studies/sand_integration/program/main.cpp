@@ -140,7 +140,8 @@ double worst(const Curve& curve, const Curve& exact)
   return out;
 }
 
-/// Processor time of a path, the least of five rounds of some milliseconds [us].
+/// Processor time of a path, the least of five rounds of some milliseconds
+/// [us].
 template <class F>
 double microseconds(F&& f)
 {
@@ -151,8 +152,8 @@ double microseconds(F&& f)
     const std::clock_t begin = std::clock();
     for (int i = 0; i < repeats; ++i)
       f();
-    const double spent = 1e6 * static_cast<double>(std::clock() - begin)
-                         / CLOCKS_PER_SEC;
+    const double spent =
+        1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     if (spent < 4e3)
     {
       repeats *= 2;
