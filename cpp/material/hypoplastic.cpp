@@ -352,8 +352,6 @@ Outcome H::update(const Point& start, const Strain& step, TangentKind kind,
   if (kind == TangentKind::continuum and apex.gap > 0)
     track.T_D *= 1 - apex.begin;
 
-  // the moduli at the start are at hand, unless grains came to touch later
-  const double G = apex.begin > 0 ? moduli(start, step.dt).G : track.G;
   const Tensor gap_D = soft * track.opened_D + apex.gap_D * one;
   End end = bring_down(track, apex.gap + soft * track.opened, gap_D);
   end.p -= p_t;

@@ -23,6 +23,9 @@ namespace mmale::material
 /// e_i and grains do not touch. Of grains that touch in part, below p_min, the
 /// rates see that part of the strain.
 ///
+/// It tells the bubble of no plastic flow: sand flows in part all the time, and
+/// a strip load then stops at a third of the way that it goes without.
+///
 /// @source von Wolffersdorff (1996), Mech. Cohes.-Frict. Mater. 1, 251-271;
 /// Niemunis & Herle (1997), the same 2, 279-299
 struct Hypoplastic

@@ -34,7 +34,6 @@ struct Track
   Tensor2<4> T_D = Tensor2<4>::Zero();
   Tensor2<4> h_D = Tensor2<4>::Zero(); ///< only true ones
   Tensor<4> opened_D = Tensor<4>::Zero();
-  double G = 0; ///< shear modulus of m_R L at the beginning [Pa]
   Effort effort = {};
 };
 

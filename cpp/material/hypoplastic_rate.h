@@ -247,12 +247,6 @@ struct Rate
   void slopes(const Sand& c, const Tensor<N>& T, const Tensor<N>& D,
               double size, Slopes<N>& out) const;
 
-  /// Shear modulus of m_R L [Pa].
-  double shear_modulus(const Sand& c) const
-  {
-    return 0.5 * c.m_R * _fs * lode.F * lode.F;
-  }
-
   /// m_R L, the law's stiffest.
   Tensor2<N> stiffest(const Sand& c) const
   {
