@@ -9,6 +9,13 @@
 
 namespace mmale::lagrangian
 {
+namespace
+{
+/// Storage of the skeleton that is lumped, of its own. The bubble smooths p and
+/// would let p_w overshoot by 2 % with 1; 1.2: the first node lacks 4 %.
+constexpr double lumping = 1.1;
+} // namespace
+
 void MeanElement::make_flow(const scene::Water& water)
 {
   const auto kernel = [&](ufcx_form* plane, ufcx_form* axi)
@@ -49,7 +56,7 @@ void MeanElement::gather_flow(const State& state, int c,
     in.dstored_dp[v] = slope;
   }
   const double c_uniaxial = _flow->compliance[c];
-  in.compliance = _flow->consistent ? 0 : c_uniaxial;
+  in.compliance = _flow->consistent ? 0 : lumping * c_uniaxial;
   in.mobility = _flow->mobility;
   in.share = c_uniaxial / (c_uniaxial + _water->compressibility(pores));
   std::fill_n(in.size, 4, 0.0);
@@ -87,7 +94,8 @@ void MeanElement::measure_flow(int c, const SeepageInput& in, const double* x,
   const double flow = constants.dt * _flow->mobility * V;
   row.size_squared = flow * flow * shape_squared
                      * (gradient[0] * gradient[0] + gradient[1] * gradient[1]);
-  row.digits_squared = flow * flow * shape_squared * sum * sum;
+  const double carried = flow + in.compliance * V * (in.size[0] + in.size[3]);
+  row.digits_squared = carried * carried * shape_squared * sum * sum;
 }
 
 FlowRow MeanElement::flow(const State& state, int c, std::span<const double> z,

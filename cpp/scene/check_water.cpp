@@ -71,10 +71,18 @@ void check_seepage(const Scene& scene, Complaints& out)
     out.push_back(
         {"solver.element", "must not be constant_strain: " + asks, {}});
   for (std::size_t i = 0; i < scene.stage.size(); ++i)
-    if (const auto& d = scene.stage[i].dynamics; d and d->resolved().beta == 0)
-      out.push_back({"stage." + stage_label(scene.stage, i) + ".dynamics.beta",
-                     "must be > 0: " + asks,
+  {
+    const auto& dynamics = scene.stage[i].dynamics;
+    const std::string key =
+        "stage." + stage_label(scene.stage, i) + ".dynamics.";
+    if (dynamics and dynamics->resolved().beta == 0)
+      out.push_back({key + "beta", "must be > 0: " + asks, {}});
+    // it would damp the total pressure, and with it the flow
+    if (dynamics and dynamics->damping_stiffness > 0)
+      out.push_back({key + "damping_stiffness",
+                     "must be 0: " + asks + ", and the flow damps",
                      {}});
+  }
 }
 } // namespace
 

@@ -173,6 +173,7 @@ damping_stiffness = 1e-4
 """
     drained = ["stage.push.boundary.surface.drained=true"]
     drained += ["stage.slow.boundary.surface.seepage_face=true"]
+    drained += ["stage.slow.dynamics.damping_stiffness=0"]
     first, second = SCENE.split("[[stage]]")[1:]
     stage, rest = second.split("[remap]")
     shaking = "[[stage]]".join([SCENE.split("[[stage]]")[0], first, stage + inertia])

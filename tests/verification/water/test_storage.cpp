@@ -4,6 +4,7 @@
 #include "soil.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
 
 using namespace mmale;
 using namespace mmale::test;
@@ -12,12 +13,14 @@ namespace
 {
 /// Pore pressures down from a drained loaded top after one short step, over
 /// the exact one, which is 1 everywhere below the top.
-std::vector<double> after_short_step(const char* storage, double K_f)
+std::vector<double> after_short_step(const char* storage, double K_f,
+                                     scene::Diagonal diagonal)
 {
   const Soil soil{.k = 1e-14, .K_f = K_f, .K_s = 10 * K_f};
   const int n = 16;
   auto scene = soil.rectangle(0.25, 1, 4, n);
   scene.water->storage = storage;
+  scene.mesh.diagonal = diagonal;
   Body body(scene);
   auto s = trough();
   s.boundary["top"].pressure = constant(1e3);
@@ -53,17 +56,21 @@ TEST_CASE("no flow, drained loaded top: lumped storage hardly overshoots, "
           "consistent storage swings",
           "[water][storage]")
 {
+  const auto diagonal =
+      GENERATE(scene::Diagonal::right, scene::Diagonal::alternating);
   // water as it is, and a thousand times stiffer
   for (const double K_f : {2.2e9, 2.2e12})
   {
-    const auto lumped = after_short_step("lumped", K_f),
-               consistent = after_short_step("consistent", K_f);
+    const auto lumped = after_short_step("lumped", K_f, diagonal),
+               consistent = after_short_step("consistent", K_f, diagonal);
     CAPTURE(K_f, lumped, consistent);
     CHECK(lumped[0] == 0);
     CHECK(*std::ranges::max_element(lumped) < 1.01);
-    CHECK(*std::min_element(lumped.begin() + 1, lumped.end()) > 0.99);
-    CHECK(*std::ranges::max_element(consistent) > 1.3);
-    CHECK(*std::min_element(consistent.begin() + 1, consistent.end()) < 0.7);
+    CHECK(*std::min_element(lumped.begin() + 1, lumped.end()) > 0.98);
+    double swing = 0;
+    for (std::size_t i = 1; i < consistent.size(); ++i)
+      swing = std::max(swing, std::abs(consistent[i] - 1));
+    CHECK(swing > 0.4);
   }
 }
 

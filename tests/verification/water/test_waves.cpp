@@ -25,6 +25,7 @@ double wave_speed(const char* drainage)
   auto scene = Column::scene(16, 1);
   soil.put_into(scene);
   scene.water->drainage = drainage;
+  scene.solver.tolerance = 1e-9; // the water strains a hundredth as much
   Column column(scene, {});
   column.add_mode(1, 1e-6);
   column.begin();
@@ -81,13 +82,14 @@ TEST_CASE("a saturated column under 75 rad/s", "[water][waves]")
   scene.mesh.grading = scene::Grading{{0.05, 10}, 0.02, 1.05, 0.1};
   scene.mesh.cells = {0, 0};
   scene.mesh.size = 0.2;
+  scene.water->time_weight = 0.5;
   Body body(scene);
   auto s = trough();
   s.dynamics.emplace();
   s.boundary["top"].drained = true;
-  const double dt = 5e-4;
+  const double dt = 1e-3;
   scene::TimeSeries& load = s.boundary["top"].pressure.emplace();
-  for (int i = 0; i <= 400; ++i)
+  for (int i = 0; i <= 200; ++i)
   {
     load.time.push_back(i * dt);
     load.value.push_back(3000 * (1 - std::cos(75 * i * dt)));
@@ -96,8 +98,8 @@ TEST_CASE("a saturated column under 75 rad/s", "[water][waves]")
   const int top = body.node(0, 10);
   const double y = body.state().x[2 * top + 1];
   const std::map<int, double> reference{
-      {100, 2.338250e-4}, {200, 1.598014e-4}, {400, 3.242571e-4}};
-  for (int i = 0; i < 400; ++i)
+      {50, 2.338250e-4}, {100, 1.598014e-4}, {200, 3.242571e-4}};
+  for (int i = 0; i < 200; ++i)
   {
     REQUIRE(body.step(i * dt, (i + 1) * dt));
     if (not reference.contains(i + 1))
