@@ -37,6 +37,8 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
   {
     if (field.size == 4)
       _tensors.push_back(at);
+    if (field.name == "void_ratio")
+      _void_ratio = at;
     at += field.size;
   }
 }
@@ -86,17 +88,22 @@ double Element::begin(const material::Start& start, double p_w,
         if (not _water)
           return rho;
         material::Pores pores{p_w, _porosity};
-        int at = 0;
-        for (const material::HistoryField& field : law.history())
-        {
-          if (field.name == "void_ratio")
-            pores.n = q[at] / (1 + q[at]);
-          at += field.size;
-        }
+        if (has_void_ratio())
+          pores.n = q[_void_ratio] / (1 + q[_void_ratio]);
         material::set_pores(pores, q);
         return rho + pores.n * _rho_f;
       },
       _law);
+}
+
+double Element::grain_gap(const State& state, int c) const
+{
+  double density = 0;
+  std::vector<double> q(_num_history);
+  for (int i = c * _num_points; i < (c + 1) * _num_points; ++i)
+    density += begin({.void_ratio = point(state, i).q[_void_ratio]}, 0, q)
+               / _num_points;
+  return std::log(state.density[c] / density);
 }
 
 double Element::end_density(const State& state, int c) const

@@ -130,6 +130,13 @@ public:
   double begin(const material::Start& start, double p_w,
                std::span<double> q) const;
 
+  /// Does the law know its void ratio?
+  bool has_void_ratio() const { return _void_ratio >= 0; }
+
+  /// Logarithm of a cell's density over the one that goes with its void
+  /// ratios: theta and ln J differ cell by cell, and this is their sum [-].
+  double grain_gap(const State& state, int cell) const;
+
   /// Moduli of a cell as it is: means over its points [Pa]. With seepage those
   /// of the skeleton, as in a slow step, unless water and grains are wanted
   /// too, as in a wave.
@@ -205,6 +212,7 @@ protected:
   const PorePressure* _seepage = nullptr; ///< with water that flows
   int _num_points, _num_history;
   std::vector<int> _tensors; ///< where in the history one begins
+  int _void_ratio = -1;      ///< where it is in the history; -1: nowhere
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
   std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]

@@ -181,9 +181,10 @@ const std::array<TextParameter<H>, 2> H::texts{{
 
 std::vector<HistoryField> H::history() const
 {
-  std::vector<HistoryField> fields{{"void_ratio"}};
+  std::vector<HistoryField> fields{
+      {"void_ratio", 1, Conserved::grain_volume}};
   if (with_grains())
-    fields.push_back({"intergranular_strain", 4});
+    fields.push_back({"intergranular_strain", 4, Conserved::value});
   return fields;
 }
 
