@@ -171,10 +171,11 @@ void Problem::assemble_residual(double* r)
   // squares: cell forces, strains, held increments, flows
   double size[4] = {0, 0, 0, 0};
   // what last digits come to, as large as they may weigh: strains of the
-  // pressure at rest, and of the displacement in flight
+  // pressure at rest, by which the bubble moves too, and of the displacement in
+  // flight
   const double last_digits =
       4 * std::numeric_limits<double>::epsilon() / _options.tolerance;
-  const double of_p = last_digits / _bulk;
+  const double of_p = last_digits / std::min(_bulk, _stress);
   const double of_u = _newmark ? last_digits / _length : 0;
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {

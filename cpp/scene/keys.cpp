@@ -8,6 +8,12 @@ namespace mmale::scene
 {
 namespace
 {
+/// With a full stop.
+std::string closed(const std::string& sentence)
+{
+  return sentence.ends_with(".") ? sentence : sentence + ".";
+}
+
 /// What a law takes, as keys of a material.
 void add_law(const std::string& path, const LawInfo& law,
              std::vector<KeyInfo>& reference)
@@ -28,13 +34,13 @@ void add_law(const std::string& path, const LawInfo& law,
   }
   for (const TextInfo& t : law.texts)
     reference.push_back({path + t.name, "text", "", "",
-                         t.needed ? "required" : "", t.sentence + "." + of});
+                         t.needed ? "required" : "", closed(t.sentence) + of});
   for (const ParameterInfo& p : law.parameters)
     reference.push_back({path + p.name, "number", p.unit, p.range.words(),
-                         standard_of(p.standard), p.sentence + "." + of});
+                         standard_of(p.standard), closed(p.sentence) + of});
   for (const ListInfo& l : law.lists)
     reference.push_back(
-        {path + l.name, "list of numbers", "", "", "", l.sentence + "." + of});
+        {path + l.name, "list of numbers", "", "", "", closed(l.sentence) + of});
 }
 
 void allow(std::vector<KeyInfo>& reference, const std::string& key,

@@ -477,6 +477,20 @@ def vibrating_column_np(ranks):
     same_on(ranks, "vibrating_column", [], columns)
 
 
+def shaken_box():
+    """Saturated sand turns liquid: the water bears all, the surface lags behind."""
+    folder, _ = run("shaken_box", "mesh.size=0.2")
+    checks_hold(folder)
+    columns = curves(folder)
+    motion = list(zip(columns["time"], columns["surface"]))
+    early = max(abs(v) for t, v in motion if t < 0.8)
+    late = max(abs(v) for t, v in motion if t > 1.2)
+    table = max(columns["table"])
+    hold(late < 0.6 * table < early, f"surface {early:.3f}, then {late:.3f} m/s")
+    hold(summary(folder)["law"]["apex"] > 0, "the zero-stress floor is counted")
+    hold(summary(folder)["initial_imbalance"] < 1e-8, "begins at rest")
+
+
 def consolidation():
     """Terzaghi's layer, and again on a distorted mesh that the remap straightens:
     p' and p_w travel, the books of mass close."""

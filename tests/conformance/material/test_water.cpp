@@ -128,7 +128,8 @@ TEST_CASE("water: an elastic skeleton without flow answers with p' + p_w",
     const Driven a = ask(medium, start, de, p, q);
     INFO("p0 " << p0 << " p_w " << p_w << " p " << p);
     const auto [w, s] = volumes(q0[1], p_w, q[0]);
-    CHECK_THAT(std::log(w + s), WithinAbs(a.theta, 1e-14));
+    // `drive` stops within the round-off of an uncavitated trial
+    CHECK_THAT(std::log(w + s), WithinAbs(a.theta, 1e-12));
     const double effective = p0 - p_w - K * a.theta;
     CHECK_THAT(effective + q[0], WithinAbs(p, 1e-6));
     // its slope, where cavitation is not within reach of the difference

@@ -161,7 +161,11 @@ TEST_CASE("a water table bears its share of the weight",
     CHECK(body.state().density[c] == Approx(rho).epsilon(1e-13));
   }
   for (int k = 0; k < 3; ++k)
-    REQUIRE(body.step(0.1 * k, 0.1 * (k + 1)));
+  {
+    const auto taken = body.step(0.1 * k, 0.1 * (k + 1));
+    CAPTURE(seepage, table, taken.cause, taken.residuals);
+    REQUIRE(taken);
+  }
   CHECK(way(body, start) < 1e-10);
 }
 
