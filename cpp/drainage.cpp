@@ -54,10 +54,12 @@ Stiffness stiffness(const scene::Scene& scene, double depth)
             pores.n = q[at] / (1 + q[at]);
           at += field.size;
         }
-        const double buoyant = l.density - (1 - pores.n) * water.density;
+        const double buoyant = material::initial_density(l, material::Start{})
+                               - (1 - pores.n) * water.density;
         material::Point point{.q = q};
+        point.p = scene.initial.pressure.value_or(scene.initial.surcharge);
         if (heavy)
-          point.p = std::max(0.0, buoyant * 9.81 * depth / 2);
+          point.p += std::max(0.0, buoyant * 9.81 * depth / 2);
         const double dt = scene.stage.front().step;
         const auto [G, K] = l.moduli(point, dt);
         const material::Water medium{water.bulk_modulus,

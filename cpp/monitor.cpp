@@ -19,6 +19,16 @@ double sum(MPI_Comm comm, double x)
   return x;
 }
 
+/// Root of the mean square over all ranks. Collective.
+double rms(MPI_Comm comm, std::span<const double> v)
+{
+  double total[2] = {0, static_cast<double>(v.size())};
+  for (double x : v)
+    total[0] += x * x;
+  MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, comm);
+  return std::sqrt(total[0] / total[1]);
+}
+
 /// Boundaries that some stage holds or loads, or whose curve is asked for.
 std::vector<int> watched(const Simulation& sim)
 {
@@ -61,6 +71,9 @@ Monitor::Monitor(Simulation& sim)
       _names.push_back(sim.domain.boundary_names[b] + what);
   if (sim.problem)
     for (const char* name : {"iterations", "pressure_gap", "volume_gap"})
+      _names.emplace_back(name);
+  if (has_void_ratio())
+    for (const char* name : {"grain_gap", "grain_gap_patch"})
       _names.emplace_back(name);
   if (sim.remap)
     for (const char* name : {"quality", "cycles", "clipped"})
@@ -306,12 +319,33 @@ std::vector<double> Monitor::pore_pressure() const
   const State& state = _sim.state;
   if (not state.p_w.empty())
     return state.p_w;
+  return corner_mean(water(0));
+}
+
+/// Means of a cells' field over the corners around the nodes. Collective.
+std::vector<double> Monitor::corner_mean(std::span<const double> cells) const
+{
   const bool axisymmetric =
       _sim.scene.symmetry == scene::Symmetry::axisymmetric;
-  auto out = mesh::lump(_sim.domain, state.x, water(0), axisymmetric);
-  const auto volume = mesh::lump(_sim.domain, state.x, {}, axisymmetric);
+  const auto& x = _sim.state.x;
+  auto out = mesh::lump(_sim.domain, x, cells, axisymmetric);
+  const auto volume = mesh::lump(_sim.domain, x, {}, axisymmetric);
   for (std::size_t n = 0; n < out.size(); ++n)
     out[n] /= volume[n];
+  return out;
+}
+
+bool Monitor::has_void_ratio() const
+{
+  return _sim.problem and _sim.problem->element().has_void_ratio();
+}
+
+/// Element::grain_gap of all cells, ghosts too.
+std::vector<double> Monitor::grain_gap() const
+{
+  std::vector<double> out(_sim.state.density.size());
+  for (std::size_t c = 0; c < out.size(); ++c)
+    out[c] = _sim.problem->element().grain_gap(_sim.state, static_cast<int>(c));
   return out;
 }
 
@@ -329,13 +363,18 @@ std::vector<double> Monitor::effective_stress() const
 void Monitor::add_water_fields(std::vector<output::NamedField>& out)
 {
   using output::Location;
-  auto& [p_w, porosity, effective] = _of_water;
+  auto& [p_w, porosity, effective, p] = _of_water;
   p_w = pore_pressure();
   porosity = water(1);
   effective = effective_stress();
   out.push_back({"pore_pressure", Location::nodal, 1, p_w, "Pa"});
   out.push_back({"porosity", Location::cell, 1, porosity, ""});
+  p.resize(porosity.size());
+  for (std::size_t c = 0; c < p.size(); ++c)
+    p[c] =
+        -(effective[4 * c] + effective[4 * c + 1] + effective[4 * c + 2]) / 3;
   out.push_back({"effective_stress", Location::cell, 4, effective, "Pa"});
+  out.push_back({"effective_pressure", Location::cell, 1, p, "Pa"});
 }
 
 /// Means over the points of the cells; `size` numbers a point.
@@ -373,6 +412,15 @@ std::vector<double> Monitor::row(double step, const StepLog& log)
     out.push_back(log.newton.iterations);
     const auto gap = _sim.problem->mismatch(_sim.state);
     out.insert(out.end(), gap.begin(), gap.end());
+  }
+  if (has_void_ratio())
+  {
+    const auto gap = grain_gap();
+    const auto n = static_cast<std::size_t>(_sim.domain.num_owned_nodes);
+    const auto m = static_cast<std::size_t>(_sim.domain.num_owned_cells);
+    const auto patch = corner_mean(gap);
+    out.push_back(rms(_sim.domain.comm, std::span(gap).first(m)));
+    out.push_back(rms(_sim.domain.comm, std::span(patch).first(n)));
   }
   if (_sim.remap)
     out.insert(out.end(), {bridge::worst_quality(_sim.domain, _sim.state),
@@ -448,7 +496,7 @@ std::vector<output::NamedField> Monitor::fields()
   if (not _sim.law)
     return out;
   const std::size_t cells = state.density.size();
-  auto& [mises, stress, history] = _derived;
+  auto& [mises, stress, history, gap] = _derived;
   stress = cell_stress();
   mises.resize(cells);
   for (std::size_t c = 0; c < cells; ++c)
@@ -461,6 +509,8 @@ std::vector<output::NamedField> Monitor::fields()
   out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
   out.push_back({"stress", Location::cell, 4, stress, "Pa"});
   out.push_back({"density", Location::cell, 1, state.density, "kg/m3"});
+  if (not state.apex.empty())
+    out.push_back({"apex", Location::cell, 1, state.apex, ""});
   // history numbers come apart, one field each
   const auto names =
       material::history_names(*_sim.law, _sim.scene.water.has_value());
@@ -474,6 +524,11 @@ std::vector<output::NamedField> Monitor::fields()
       history[k * cells + c] = means[h * c + k];
     out.push_back({names[k], Location::cell, 1,
                    std::span(history).subspan(k * cells, cells), ""});
+  }
+  if (has_void_ratio())
+  {
+    gap = grain_gap();
+    out.push_back({"grain_gap", Location::cell, 1, gap, ""});
   }
   if (_sim.scene.water)
     add_water_fields(out);

@@ -56,6 +56,9 @@ private:
   std::vector<double> effective_stress() const;
   std::vector<double> water(std::size_t number) const;
   std::vector<double> pore_pressure() const;
+  std::vector<double> corner_mean(std::span<const double> cells) const;
+  bool has_void_ratio() const;
+  std::vector<double> grain_gap() const;
   void add_water_fields(std::vector<output::NamedField>& out);
   double boundary_mean(int boundary, std::span<const double> nodal, int size,
                        int component) const;
@@ -78,7 +81,8 @@ private:
   double _volume = 0;               ///< at the end of the last step
   double _seeped = 0;               ///< mass of water that flowed in
   double _lagrangian_volume = 0;    ///< change by the material's own motion
-  std::vector<double> _derived[3];  ///< von Mises, stress, history
-  std::vector<double> _of_water[3]; ///< p_w, porosity, effective stress
+  std::vector<double> _derived[4];  ///< von Mises, stress, history, grain gap
+  std::vector<double> _of_water[4]; ///< p_w, porosity, effective stress and
+                                    ///< pressure
 };
 } // namespace mmale

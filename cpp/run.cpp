@@ -2,6 +2,7 @@
 #include "run.h"
 
 #include "drainage.h"
+#include "initial.h"
 #include "lay.h"
 #include "monitor.h"
 #include "output/archive.h"
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dolfinx/common/MPI.h>
+#include <format>
 #include <iostream>
 #include <spdlog/spdlog.h>
 #include <sstream>
@@ -35,6 +37,8 @@ public:
   Result go();
 
 private:
+  void settle();
+  void count(const material::Effort& effort);
   void enter_stage();
   bool stage();
   bool attempt();
@@ -283,6 +287,9 @@ void Run::keep_books(output::Archive& archive)
   archive("summary/remaps", _summary.remaps);
   archive("summary/remaps_left_out", _summary.remaps_left_out);
   archive("summary/remap_trouble", _summary.remap_trouble);
+  archive("summary/initial_imbalance", _summary.initial_imbalance);
+  for (const char* what : {"substeps", "rejected", "apex", "clipped"})
+    archive(std::string("summary/law_") + what, _summary.law[what]);
   archive("summary/resumed", _summary.resumed);
   mmale::keep(archive, _curves);
   mmale::keep(archive, _sim.clock, timings());
@@ -350,6 +357,15 @@ void Run::enter_stage()
     _sim.problem->set_stage(stage, _sim.state);
 }
 
+/// What the laws took in a step, into the summary.
+void Run::count(const material::Effort& effort)
+{
+  _summary.law["substeps"] += effort.substeps;
+  _summary.law["rejected"] += effort.rejected;
+  _summary.law["apex"] += effort.apex;
+  _summary.law["clipped"] += effort.clipped;
+}
+
 /// One step; false when it fails at the floor.
 bool Run::attempt()
 {
@@ -372,6 +388,8 @@ bool Run::attempt()
     ++_summary.remaps_left_out;
     _summary.remap_trouble = log.remap.trouble;
   }
+  if (_sim.problem)
+    count(_sim.problem->effort());
   _summary.remaps += log.remap.done;
   ++_summary.steps;
   _control->accepted(static_cast<int>(log.newton.residuals.size()) - 1);
@@ -448,15 +466,30 @@ void Run::check()
       output::evaluate(_references.entries, _curves, _summary.ledger);
 }
 
+/// Ground begins at rest.
+void Run::settle()
+{
+  if (not _scene.initial.K0)
+    return;
+  const Balance balance = mmale::settle(_sim);
+  _summary.initial_imbalance = balance.settled;
+  _progress.note(std::format("initial stress: {:.1e} of the weight out of "
+                             "balance as laid, {:.1e} when settled",
+                             balance.as_laid, balance.settled));
+}
+
 Result Run::go()
 {
   if (_loaded)
     resume();
   else
   {
+    settle();
     record(0, {});
     write_fields();
     enter_stage();
+    if (_scene.initial.K0)
+      _sim.problem->rest_under_gravity();
   }
   _checkpoint_due = _sim.clock.wall() + _scene.output.checkpoint_every;
   bool completed = stage();

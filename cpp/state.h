@@ -33,6 +33,8 @@ struct State
   std::vector<double> history; ///< the law's numbers, then those of the water,
                                ///< shape (m, points, h)
   std::vector<double> density; ///< of the cells, shape (m) [kg/m3]
+  std::vector<double> apex; ///< steps that met the law's zero-stress floor, of
+                            ///< laws that have one, shape (m)
   std::map<std::string, std::vector<double>> tracer; ///< shape (m) each
 
   // of dynamic stages
@@ -72,6 +74,7 @@ void for_each_field(S& state, Visit&& visit)
   visit("P", Entity::cell, state.P);
   visit("density", Entity::cell, state.density);
   visit("history", Entity::cell, state.history);
+  visit("apex", Entity::cell, state.apex);
   visit("a", Entity::node, state.a);
   visit("force", Entity::node, state.force);
   visit("inner", Entity::node, state.inner);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "history_fields.h"
 #include "material/water.h"
 #include "mesh/corners.h"
 #include "output/archive.h"
@@ -148,7 +149,7 @@ struct RemapStep::Impl
 
   bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
-  void add_stress(State& state, std::vector<::remap::Field>& fields) const;
+  void add_stress(State& state, std::vector<::remap::Field>& fields);
   void make_admissible(State& state, RemapLog& log);
   void to_effective(State& state) const;
   void to_total(State& state) const;
@@ -167,6 +168,7 @@ struct RemapStep::Impl
   std::optional<::remap::PointMesh> points; // with layout `quadrature`
   ::remap::Remapper remapper;
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
+  HistoryFields travelling;
   ::remap::Ledger ledger;
 
   std::optional<Placement> placement;
@@ -204,7 +206,8 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
       history(history_numbers(law, scene.water.has_value())),
       points(make_points(domain, scene, law, mesh)),
       remapper(mesh, transport_options(domain, scene, law.has_value(), history,
-                                       points ? &*points : nullptr))
+                                       points ? &*points : nullptr)),
+      travelling(law, scene.water.has_value())
 {
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
@@ -289,7 +292,7 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
 
 /// The law's arrays: of the cells, or of their points.
 void RemapStep::Impl::add_stress(State& state,
-                                 std::vector<::remap::Field>& fields) const
+                                 std::vector<::remap::Field>& fields)
 {
   static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
   // `admit` has the last word on the yield surface, so order 2 is not given up.
@@ -299,8 +302,8 @@ void RemapStep::Impl::add_stress(State& state,
                     .bound = ::remap::Bound::ball,
                     .weights = metric});
   fields.push_back({.values = state.P});
-  if (history > 0)
-    fields.push_back({.values = state.history, .components = history});
+  travelling.take(state.history);
+  travelling.add_to(fields);
 }
 
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,
@@ -347,6 +350,7 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     ledger = before;
     return false;
   }
+  travelling.give(state.history);
   std::ranges::copy(x, state.x.begin());
   return true;
 }

@@ -37,6 +37,8 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
   {
     if (field.size == 4)
       _tensors.push_back(at);
+    if (field.name == "void_ratio")
+      _void_ratio = at;
     at += field.size;
   }
 }
@@ -68,27 +70,40 @@ material::Moduli Element::moduli(const State& state, int c, double dt,
   return mean;
 }
 
-double Element::begin(const material::Start& start, std::span<double> q) const
+bool Element::has_floor() const
+{
+  return std::visit([]<class L>(const L&)
+                    { return not material::LinearPressure<L>; }, _law);
+}
+
+double Element::begin(const material::Start& start, double p_w,
+                      std::span<double> q) const
 {
   const int own = _num_history - (_water ? material::Water::num_history : 0);
   return std::visit(
       [&](const auto& law)
       {
         law.begin(start, q.first(own));
+        const double rho = material::initial_density(law, start);
         if (not _water)
-          return law.density;
-        material::Pores pores{0, _porosity};
-        int at = 0;
-        for (const material::HistoryField& field : law.history())
-        {
-          if (field.name == "void_ratio")
-            pores.n = q[at] / (1 + q[at]);
-          at += field.size;
-        }
+          return rho;
+        material::Pores pores{p_w, _porosity};
+        if (has_void_ratio())
+          pores.n = q[_void_ratio] / (1 + q[_void_ratio]);
         material::set_pores(pores, q);
-        return law.density + pores.n * _rho_f;
+        return rho + pores.n * _rho_f;
       },
       _law);
+}
+
+double Element::grain_gap(const State& state, int c) const
+{
+  double density = 0;
+  std::vector<double> q(_num_history);
+  for (int i = c * _num_points; i < (c + 1) * _num_points; ++i)
+    density += begin({.void_ratio = point(state, i).q[_void_ratio]}, 0, q)
+               / _num_points;
+  return std::log(state.density[c] / density);
 }
 
 double Element::end_density(const State& state, int c) const
@@ -241,6 +256,8 @@ void Element::accept(State& state, std::span<const double> z, double dt)
       _water_gained +=
           state.density[c] * _volume[c]
           - before * mesh::cell_volume(_domain, state.x, c, _axisymmetric);
+    if (not state.apex.empty())
+      state.apex[c] += effort(c).apex > 0;
   }
   std::ranges::copy(_history, state.history.begin());
   for (int n = 0; n < _domain.num_nodes(); ++n)
@@ -255,6 +272,8 @@ void Element::accept(State& state, std::span<const double> z, double dt)
   _domain.cell_halo->update(state.s, 4 * _num_points);
   _domain.cell_halo->update(state.P, _num_points);
   _domain.cell_halo->update(state.density, 1);
+  if (not state.apex.empty())
+    _domain.cell_halo->update(state.apex, 1);
   if (_num_history > 0)
     _domain.cell_halo->update(state.history, _num_history * _num_points);
 }

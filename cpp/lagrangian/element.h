@@ -118,11 +118,24 @@ public:
   /// the order of the step's strain and of stress over stiffness.
   bool symmetric() const;
 
+  /// Has the law a zero-stress floor? Then it is counted where it acts.
+  bool has_floor() const;
+
+  bool fluid() const { return _fluid; } ///< its deviator has no memory
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
 
   /// Numbers of a point at the start of a run, and its density [kg/m3].
-  double begin(const material::Start& start, std::span<double> q) const;
+  /// @param[in] p_w pore pressure, if there is water [Pa]
+  double begin(const material::Start& start, double p_w,
+               std::span<double> q) const;
+
+  /// Does the law know its void ratio?
+  bool has_void_ratio() const { return _void_ratio >= 0; }
+
+  /// Logarithm of a cell's density over the one that goes with its void
+  /// ratios: theta and ln J differ cell by cell, and this is their sum [-].
+  double grain_gap(const State& state, int cell) const;
 
   /// Moduli of a cell as it is: means over its points [Pa]. With seepage those
   /// of the skeleton, as in a slow step, unless water and grains are wanted
@@ -130,8 +143,8 @@ public:
   material::Moduli moduli(const State& state, int cell, double dt,
                           bool fast = false) const;
 
-  /// What the laws' last answers took, of the owned cells.
-  virtual material::Effort effort() const = 0;
+  /// What the law's last answer took in a cell.
+  virtual material::Effort effort(int cell) const = 0;
 
 protected:
   Element(const mesh::Domain& domain, const material::AnyLaw& law,
@@ -199,6 +212,7 @@ protected:
   const PorePressure* _seepage = nullptr; ///< with water that flows
   int _num_points, _num_history;
   std::vector<int> _tensors; ///< where in the history one begins
+  int _void_ratio = -1;      ///< where it is in the history; -1: nowhere
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
   std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]

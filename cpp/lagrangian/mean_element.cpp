@@ -54,12 +54,9 @@ double MeanElement::strain_squared(int c) const
          + cell.answer.theta * cell.answer.theta;
 }
 
-material::Effort MeanElement::effort() const
+material::Effort MeanElement::effort(int c) const
 {
-  material::Effort sum;
-  for (const Cell& cell : _cell)
-    sum += cell.answer.effort;
-  return sum;
+  return _cell[c].answer.effort;
 }
 
 void MeanElement::begin_step(const State& state, double dt)

@@ -62,12 +62,11 @@ PointElement<n>::PointElement(const mesh::Domain& domain,
 }
 
 template <int n>
-material::Effort PointElement<n>::effort() const
+material::Effort PointElement<n>::effort(int c) const
 {
   material::Effort sum;
-  for (const Cell& cell : _cell)
-    for (const Point& point : cell.point)
-      sum += point.answer.effort;
+  for (const Point& point : _cell[c].point)
+    sum += point.answer.effort;
   return sum;
 }
 

@@ -43,7 +43,7 @@ public:
   std::array<double, 2> mismatch_squared(const State& state,
                                          int cell) const override;
   double strain_squared(int cell) const override;
-  material::Effort effort() const override;
+  material::Effort effort(int cell) const override;
 
 private:
   /// Of a bubble's equation; elastic cells take one. Doubled: nothing.

@@ -54,7 +54,7 @@ Problem::~Problem()
   VecDestroy(&_unlifted);
 }
 
-void Problem::set_scales(const State& state, double dt)
+material::Moduli Problem::moduli(const State& state, double dt) const
 {
   double sum[3] = {0, 0, static_cast<double>(_domain.num_owned_cells)};
   for (int c = 0; c < _domain.num_owned_cells; ++c)
@@ -64,8 +64,14 @@ void Problem::set_scales(const State& state, double dt)
     sum[1] += K;
   }
   MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, _domain.comm);
-  _stress = sum[0] / sum[2];
-  _bulk = sum[1] / sum[2];
+  return {sum[0] / sum[2], sum[1] / sum[2]};
+}
+
+void Problem::set_scales(const State& state, double dt)
+{
+  const auto [G, K] = moduli(state, dt);
+  _stress = G;
+  _bulk = K;
 }
 
 /// Of a cell as it was when the step began.
@@ -78,7 +84,9 @@ std::array<double, 2> Problem::impedance(int c) const
 
 material::Effort Problem::effort() const
 {
-  const material::Effort e = _element->effort();
+  material::Effort e;
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    e += _element->effort(c);
   std::array<long, 4> sum{e.substeps, e.rejected, e.apex, e.clipped};
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 4, MPI_LONG, MPI_SUM, _domain.comm);
   return {sum[0], sum[1], sum[2], sum[3]};
@@ -460,6 +468,41 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
   _guess_dt = t1 - t0;
   std::copy_n(_constants.g, 2, _gravity.begin());
   return true;
+}
+
+double Problem::imbalance(const State& state, double dt)
+{
+  prepare(state, 0, dt);
+  _contact->begin_step(state.x, _t0, _t1);
+  hold();
+  auto z = _z.mutable_array();
+  for (int i = 0; i < 3 * _domain.num_nodes(); ++i)
+    z[i] = i % 3 == 2 ? state.p[i / 3] : 0;
+  if (_pore_pressure)
+  {
+    _pore_pressure->begin(state.p_w, _t1, dt, _length);
+    std::ranges::copy(state.p_w, _pore_pressure->trial().begin());
+  }
+  _element->begin_step(state, dt);
+  if (not evaluate())
+    throw std::runtime_error("the initial state fails: " + _failure.cause
+                             + ", cell " + std::to_string(_failure.cell));
+  std::vector<double> r(static_cast<std::size_t>(_block)
+                        * _domain.num_owned_nodes);
+  assemble_residual(r.data());
+  const auto mass = mesh::lump(_domain, state.x, state.density,
+                               _symmetry == scene::Symmetry::axisymmetric);
+  double worst = 0, weight = 0;
+  for (int n = 0; n < _domain.num_owned_nodes; ++n)
+  {
+    weight += mass[n] * std::hypot(_constants.g[0], _constants.g[1]);
+    for (int d = 0; d < 2; ++d)
+      if (_holder[3 * n + d] < 0)
+        worst = std::max(worst, std::abs(_force.array()[3 * n + d]));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, _domain.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &weight, 1, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  return weight > 0 ? worst / weight : _norm_u;
 }
 
 void Problem::keep(output::Archive& archive)

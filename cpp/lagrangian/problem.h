@@ -60,6 +60,15 @@ public:
   /// @param[in] t from the start of the stage [s]
   void rebalance(State& state, double t);
 
+  /// The body was under the stage's gravity before the stage began.
+  void rest_under_gravity() { _gravity = _conditions->gravity(0); }
+
+  /// Largest force on a node that is free to move, were the body at rest when
+  /// the stage begins, over its weight; without gravity over the norm of the
+  /// cells' own forces. Collective.
+  /// @param[in] dt of the step that the laws are asked for [s]
+  double imbalance(const State& state, double dt);
+
   /// Kinetic energy, if the state's velocity is one [J/m or J/rad]. Collective.
   double kinetic_energy(const State& state) const;
 
@@ -85,6 +94,9 @@ public:
   std::span<const double> motion() const { return _motion; }
 
   const Element& element() const { return *_element; }
+
+  /// Mean moduli of all cells [Pa]. Collective.
+  material::Moduli moduli(const State& state, double dt) const;
 
   /// What the laws took in the last step. Collective.
   material::Effort effort() const;

@@ -103,15 +103,21 @@ void Problem::create_solver()
   PCSetType(pc, _symmetric ? PCCHOLESKY : PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
   // The system is scaled by its units already: MUMPS's own scaling and its
-  // search for a large diagonal cost more than they give.
-  for (const char* option :
-       {"-lagrangian_mat_mumps_icntl_6", "-lagrangian_mat_mumps_icntl_8"})
-  {
-    PetscBool given = PETSC_FALSE;
-    PetscOptionsHasName(nullptr, nullptr, option, &given);
-    if (not given)
-      PetscOptionsSetValue(nullptr, option, "0");
-  }
+  // search for a large diagonal cost more than they give. But viscosities may
+  // differ by many decades from cell to cell, and then it takes pivots for
+  // zeros (Bingham with a plug 1e5 times as viscous as what flows).
+  static bool ours = false; // what an earlier solver has set, not the user
+  PetscBool given = PETSC_FALSE;
+  PetscOptionsHasName(nullptr, nullptr, "-lagrangian_mat_mumps_icntl_8",
+                      &given);
+  if (ours or not given)
+    PetscOptionsSetValue(nullptr, "-lagrangian_mat_mumps_icntl_8",
+                         _element->fluid() ? "77" : "0");
+  ours = ours or not given;
+  PetscOptionsHasName(nullptr, nullptr, "-lagrangian_mat_mumps_icntl_6",
+                      &given);
+  if (not given)
+    PetscOptionsSetValue(nullptr, "-lagrangian_mat_mumps_icntl_6", "0");
   if (not _options.petsc.empty())
     PetscOptionsInsertString(nullptr, _options.petsc.c_str());
   SNESSetFromOptions(_snes);

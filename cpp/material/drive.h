@@ -101,11 +101,14 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
               Driven& answer)
 {
   constexpr int max_evaluations = LinearPressure<L> ? 1 : 40;
-  // p has been summed from numbers of this size
+  const auto [G, K] = law.moduli(start, dt);
+  // p has been summed from numbers of this size; without stress, as sand at a
+  // free surface is, from those of the elastic trial
   const double tolerance =
-      1e-13 * (std::abs(p) + std::abs(start.p) + norm(start.s));
+      1e-13 * (std::abs(p) + std::abs(start.p) + norm(start.s))
+      + 1e-15 * 2 * G * norm(de);
   if (LinearPressure<L> or std::isnan(guess))
-    guess = -(p - start.p) / law.moduli(start, dt).K;
+    guess = -(p - start.p) / K;
   FallingRoot theta(guess);
   Response r;
   answer.effort = {};
@@ -119,9 +122,13 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
     }
     answer.effort += r.effort;
     const double excess = r.p - p;
-    const double digits = std::abs(r.dp_dtheta * theta.x()) * 1e-15;
+    // and a law for whole tensors adds de and theta up again
+    const double digits = (std::abs(r.dp_dtheta) + K)
+                          * (std::abs(theta.x()) + de.norm()) * 2e-15;
     if (LinearPressure<L> or std::abs(excess) <= tolerance + digits)
     {
+      if (not(r.dp_dtheta < 0)) // against the contract, as a umat may be
+        return Outcome::reduce_step;
       answer.s = r.s;
       answer.theta = theta.x();
       answer.flow = r.flow;

@@ -95,12 +95,21 @@ struct Moduli
   double K; ///< above 0
 };
 
+/// What a remap keeps of a number of the history: its integral over the
+/// volume, or that of the grains' share, 1 / (1 + e), of a void ratio e.
+enum class Conserved
+{
+  value,
+  grain_volume
+};
+
 /// Numbers of a point that the law carries from step to step.
 struct HistoryField
 {
   std::string name; ///< also of the output field; of a tensor with _xx ...
   int size = 1;     ///< 1, or 4: a symmetric tensor xx yy zz xy (xy is not
                     ///< doubled) that turns with the material
+  Conserved conserved = Conserved::value;
 };
 
 /// How a point begins, where the scene says more than the law.
@@ -185,6 +194,17 @@ struct ListParameter
   std::string_view meaning;
 };
 
+/// Mass density of a point at the start [kg/m3]: the law's `density`, or what
+/// it makes of other numbers.
+template <class L>
+double initial_density(const L& law, const Start& at)
+{
+  if constexpr (requires { law.initial_density(at); })
+    return law.initial_density(at);
+  else
+    return law.density;
+}
+
 template <class L>
 concept MaterialLaw =
     std::is_aggregate_v<L>
@@ -198,7 +218,7 @@ concept MaterialLaw =
           // the deviator depends on the rate of strain alone
           { L::fluid } -> std::convertible_to<bool>;
           { L::parameters[0] } -> std::convertible_to<Parameter<L>>;
-          { law.density } -> std::convertible_to<double>;
+          { initial_density(law, Start{}) } -> std::same_as<double>;
           { law.history() } -> std::same_as<std::vector<HistoryField>>;
           // history of a point at the start of a run
           law.begin(Start{}, q);

@@ -23,6 +23,12 @@ template <class L>
 concept HasTexts = requires { L::texts; };
 template <class L>
 concept HasLists = requires { L::lists; };
+/// A law with files beside the scene.
+template <class L>
+concept HasFiles = requires(L law) {
+  law.folder;
+  { law.open() } -> std::same_as<std::string>;
+};
 
 /// Give `law` the value that its table calls `key`.
 /// @return false if there is no such key
@@ -61,6 +67,8 @@ template <class L>
 L filled(const scene::Material& material)
 {
   L law;
+  if constexpr (HasFiles<L>)
+    law.folder = material.folder;
   for (const auto& [key, text] : material.texts)
   {
     bool known = false;
@@ -137,8 +145,14 @@ AnyLaw make_law(const scene::Material& material)
   for_each_law(list,
                [&]<class L>(L)
                {
-                 if (L::name == material.law)
-                   made = filled<L>(material);
+                 if (L::name != material.law)
+                   return;
+                 L law = filled<L>(material);
+                 if constexpr (HasFiles<L>)
+                   if (const std::string trouble = law.open();
+                       not trouble.empty())
+                     throw std::invalid_argument(trouble);
+                 made = std::move(law);
                });
   if (not made)
     throw std::invalid_argument("no law is called '" + material.law + "'");

@@ -63,6 +63,15 @@ ordered_json json(const Timing& timing)
           {"cells_per_second", number(timing.cells_per_second)}};
 }
 
+ordered_json json(const Deviation& d)
+{
+  return {{"column", d.column},
+          {"abscissa", d.abscissa},
+          {"points", d.points},
+          {"outside", d.outside},
+          {"rms", number(d.rms)}};
+}
+
 template <class T>
 ordered_json list(const std::vector<T>& entries)
 {
@@ -167,6 +176,8 @@ std::string to_json(const Summary& s)
                       {"remaps", s.remaps},
                       {"remaps_left_out", s.remaps_left_out},
                       {"remap_trouble", s.remap_trouble},
+                      {"law", s.law},
+                      {"initial_imbalance", number(s.initial_imbalance)},
                       {"resumed", s.resumed},
                       {"cells", s.cells},
                       {"nodes", s.nodes},
@@ -177,6 +188,8 @@ std::string to_json(const Summary& s)
                       {"ledger", list(s.ledger)},
                       {"timers", list(s.timers)},
                       {"scene", scene(s.scene)}};
+  if (not s.data.empty())
+    out["data"] = list(s.data);
   if (not s.water.empty())
   {
     ordered_json& water = out["water"];

@@ -69,11 +69,11 @@ struct LawInfo
 /// Names that scenes may use.
 struct Libraries
 {
-  std::vector<LawInfo> laws;
-  std::vector<std::string> smoothers;
-  std::vector<std::string> transports;
+  std::vector<LawInfo> laws = {};
+  std::vector<std::string> smoothers = {};
+  std::vector<std::string> transports = {};
 
   /// Fields that pictures can show, tracers aside; empty: not checked.
-  std::vector<std::string> fields;
+  std::vector<std::string> fields = {};
 };
 } // namespace mmale::scene

@@ -93,13 +93,19 @@ struct Material
   std::map<std::string, double> parameters = {};
   std::map<std::string, std::string> texts = {};
   std::map<std::string, std::vector<double>> lists = {};
+  std::string folder = {}; ///< where relative files start; no key: the reader
+                           ///< puts the scene's own folder
 };
 
-/// A value over the time of its stage [s]: constant, or piecewise linear.
+/// A value over the time of its stage [s]: constant, piecewise linear, or a
+/// sine about a mean, which is then the one value.
 struct TimeSeries
 {
   std::vector<double> time;  ///< ascending; empty for a constant
   std::vector<double> value; ///< same length, or one number
+  double amplitude = 0;      ///< of the sine
+  double frequency = 0;      ///< [1/s]
+  double phase_deg = 0;      ///< at the start of the stage [degrees]
 
   /// Value at time t; before the first and after the last time it is held.
   double operator()(double t) const;
@@ -298,10 +304,25 @@ struct Domain
                            ///< 0: 1e-4 of the box's height
 };
 
-/// The body at the start of the run; unstressed.
+/// A number at a depth below the ground surface.
+struct AtDepth
+{
+  double depth = required; ///< [m]
+  double value = required;
+};
+
+/// The body at the start of the run. Unstressed, or with a pressure, or as
+/// ground that lies at rest under its weight.
 struct Initial
 {
-  Point velocity = {0, 0}; ///< of all of it [m/s]
+  Point velocity = {0, 0};           ///< of all of it [m/s]
+  std::optional<double> pressure;    ///< the same everywhere [Pa]
+  std::optional<double> K0;          ///< horizontal over vertical stress [-]
+  std::optional<double> surface;     ///< of the ground, y [m]; default the top
+  double surcharge = 0;              ///< vertical stress at the surface [Pa]
+  std::optional<double> water_table; ///< y where the pore pressure is 0 [m];
+                                     ///< default the surface
+  std::vector<AtDepth> void_ratio;   ///< linear between depths, constant beyond
 };
 
 /// A prescribed rigid rotation instead of a Lagrangian step.

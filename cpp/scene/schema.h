@@ -30,11 +30,16 @@ struct Key
 template <class T, class... U>
 concept OneOf = (std::same_as<T, U> or ...);
 
+/// Is T a table with `keys`? What is no part of a scene says so beside its own
+/// `keys`.
 template <class T>
-concept Table =
+inline constexpr bool is_table =
     OneOf<T, Mesh, Grading, Boundary, Material, Water, Wall, Condition,
-          Dynamics, Stage, Solver, Remap, Tracer, Domain, Initial, Motion,
-          Curve, Line, ReferenceLine, Chart, Picture, Output, Scene>;
+          Dynamics, Stage, Solver, Remap, Tracer, Domain, Initial, AtDepth,
+          Motion, Curve, Line, ReferenceLine, Chart, Picture, Output, Scene>;
+
+template <class T>
+concept Table = is_table<T>;
 
 template <class T>
 concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent,
@@ -254,10 +259,34 @@ void keys(V& v, Domain& d)
 }
 
 template <class V>
+void keys(V& v, AtDepth& a)
+{
+  v({"depth", "m", "Depth below the ground surface."}, a.depth);
+  v({"value", "-", "Value there.", above(0)}, a.value);
+}
+
+template <class V>
 void keys(V& v, Initial& i)
 {
   v({"velocity", "m/s", "Of the whole body; for a first stage with dynamics."},
     i.velocity);
+  v({"pressure", "Pa", "Stress everywhere, the same in all directions."},
+    i.pressure);
+  v({"K0", "-",
+     "Ground at rest under its weight: horizontal over vertical stress.",
+     above(0)},
+    i.K0);
+  v({"surface", "m", "Where the ground surface lies; default the body's top."},
+    i.surface);
+  v({"surcharge", "Pa", "Vertical stress at the ground surface.", at_least(0)},
+    i.surcharge);
+  v({"water_table", "m",
+     "Where the pore pressure is 0; default the surface. Pores are full "
+     "above."},
+    i.water_table);
+  v({"void_ratio", "",
+     "Void ratio by depth, instead of the law's; linear in between."},
+    i.void_ratio);
 }
 
 template <class V>

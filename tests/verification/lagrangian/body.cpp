@@ -2,6 +2,7 @@
 #include "body.h"
 
 #include "environment.h"
+#include "initial.h"
 #include "simulation.h"
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
@@ -66,6 +67,14 @@ int Body::node(double x, double y) const
         < std::hypot(X[2 * best] - x, X[2 * best + 1] - y))
       best = n;
   return best;
+}
+
+std::array<double, 2> Body::settle()
+{
+  const Balance balance = mmale::settle(_parts->sim);
+  set_stage(_parts->scene.stage.front());
+  _parts->sim.problem->rest_under_gravity();
+  return {balance.as_laid, balance.settled};
 }
 
 void Body::set_stage(const scene::Stage& stage)

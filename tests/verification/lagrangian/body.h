@@ -41,6 +41,10 @@ public:
   std::vector<int> nodes(const std::string& boundary) const;
   int node(double x, double y) const; ///< nearest at the start
 
+  /// Ground at rest under its weight, in the scene's first stage; the largest
+  /// force on a free node over the weight, as laid and as settled.
+  std::array<double, 2> settle();
+
   /// The solver: Newton on the conditions of a stage.
   void set_stage(const scene::Stage& stage);
   [[nodiscard]] Taken step(double t0, double t1);
