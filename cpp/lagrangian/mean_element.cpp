@@ -147,6 +147,31 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
       });
 }
 
+/// What a fluid's bubble remembers: the share of inertia in its stiffness. A
+/// viscous one moves at a velocity, against the total forces of the step's end;
+/// one of mass has an acceleration, which increments change.
+///
+/// @param[in] x corners, shape (3, 3)
+double MeanElement::inertia_share(int c, double rho, const double* x) const
+{
+  if (not _newmark)
+    return 0;
+  const double twice_area =
+      (x[3] - x[0]) * (x[7] - x[1]) - (x[6] - x[0]) * (x[4] - x[1]);
+  double gradients = 0; // sum over corners of |grad l|^2
+  for (int v = 0; v < 3; ++v)
+  {
+    const double *a = x + 3 * ((v + 1) % 3), *b = x + 3 * ((v + 2) % 3);
+    gradients += (std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2))
+                 / (twice_area * twice_area);
+  }
+  // of b = 27 l_0 l_1 l_2 on a triangle of area 1: the integral of b^2, and the
+  // mean eigenvalue of that of 2 dev eps(b) : eps(b)
+  const double mass = 27 * 27 / 2520.0, shape = 81 / 20.0 * 7 / 6 * gradients;
+  const double inertia = rho * _newmark->c_a * mass;
+  return inertia / (inertia + shape * _G[c]);
+}
+
 void MeanElement::gather(const State& state, int c, std::span<const double> z,
                          CellInput& in, double* x) const
 {
@@ -159,9 +184,9 @@ void MeanElement::gather(const State& state, int c, std::span<const double> z,
   in.theta = cell.answer.theta;
   in.ln_J = cell.motion.ln_J;
   in.mu = _G[c];
-  in.memory = _fluid ? 0 : 1;
-  in.lam = cell.answer.flow;
   in.rho = end_density(state, c);
+  in.memory = _fluid ? inertia_share(c, in.rho, x) : 1;
+  in.lam = cell.answer.flow;
   if (_newmark)
     gather_newmark(state, c, in.newmark);
 }

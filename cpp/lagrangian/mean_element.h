@@ -71,6 +71,7 @@ private:
                           std::span<const double> z);
   void gather(const State& state, int cell, std::span<const double> z,
               CellInput& in, double* x) const;
+  double inertia_share(int cell, double rho, const double* x) const;
   void add_tangent(int cell, CellInput& in) const;
   void use_cell_pressure(int cell, CellInput& in) const;
   void project_pressure(int cell, const CellInput& in, double* R,

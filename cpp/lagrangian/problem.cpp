@@ -72,6 +72,15 @@ void Problem::set_scales(const State& state, double dt)
   const auto [G, K] = moduli(state, dt);
   _stress = G;
   _bulk = K;
+  if (not _newmark or not _element->fluid())
+    return;
+  // what resists in a fluid is its mass; G alone would be a unit so small that
+  // the matrix is singular to the last digit
+  double sum[2] = {0, static_cast<double>(_domain.num_owned_cells)};
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    sum[0] += state.density[c];
+  MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  _stress += sum[0] / sum[1] * _length * _length / (dt * dt);
 }
 
 /// Of a cell as it was when the step began.
@@ -94,7 +103,6 @@ material::Effort Problem::effort() const
 
 void Problem::set_stage(const scene::Stage& stage, const State& state)
 {
-  set_scales(state, stage.step);
   _conditions.emplace(_domain, stage);
   _contact.emplace(_domain, *_conditions);
   _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
@@ -102,6 +110,7 @@ void Problem::set_stage(const scene::Stage& stage, const State& state)
   _newmark.reset();
   if (stage.dynamics)
     _newmark.emplace(_domain, _symmetry, stage.dynamics->resolved());
+  set_scales(state, stage.step);
   _element->set_newmark(_newmark ? &*_newmark : nullptr);
   if (_pore_pressure)
     _pore_pressure->set_stage(stage);
