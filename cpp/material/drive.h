@@ -123,8 +123,8 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
     answer.effort += r.effort;
     const double excess = r.p - p;
     // and a law for whole tensors adds de and theta up again
-    const double digits = (std::abs(r.dp_dtheta) + K)
-                          * (std::abs(theta.x()) + de.norm()) * 2e-15;
+    const double digits =
+        (std::abs(r.dp_dtheta) + K) * (std::abs(theta.x()) + de.norm()) * 2e-15;
     if (LinearPressure<L> or std::abs(excess) <= tolerance + digits)
     {
       if (not(r.dp_dtheta < 0)) // against the contract, as a umat may be

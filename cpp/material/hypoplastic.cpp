@@ -181,8 +181,7 @@ const std::array<TextParameter<H>, 2> H::texts{{
 
 std::vector<HistoryField> H::history() const
 {
-  std::vector<HistoryField> fields{
-      {"void_ratio", 1, Conserved::grain_volume}};
+  std::vector<HistoryField> fields{{"void_ratio", 1, Conserved::grain_volume}};
   if (with_grains())
     fields.push_back({"intergranular_strain", 4, Conserved::value});
   return fields;

@@ -39,8 +39,8 @@ void add_law(const std::string& path, const LawInfo& law,
     reference.push_back({path + p.name, "number", p.unit, p.range.words(),
                          standard_of(p.standard), closed(p.sentence) + of});
   for (const ListInfo& l : law.lists)
-    reference.push_back(
-        {path + l.name, "list of numbers", "", "", "", closed(l.sentence) + of});
+    reference.push_back({path + l.name, "list of numbers", "", "", "",
+                         closed(l.sentence) + of});
 }
 
 void allow(std::vector<KeyInfo>& reference, const std::string& key,
