@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bridge/domains.h"
 #include "command_line.h"
-#include "element/verb.h"
 #include "drainage.h"
+#include "element/verb.h"
 #include "environment.h"
 #include "libraries.h"
 #include "mesh/gmsh.h"
