@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bridge/domains.h"
+#include "command_line.h"
+#include "element/verb.h"
+#include "drainage.h"
 #include "environment.h"
 #include "libraries.h"
 #include "mesh/gmsh.h"
@@ -11,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -26,32 +30,11 @@ using namespace mmale;
 
 namespace
 {
-/// How the program ends; `--help` says the same.
-enum Exit
-{
-  good = 0,
-  mistake = 1,
-  failure = 2,
-  stopped = 3,
-  checks_fail = 4
-};
-
 constexpr const char* exit_help =
     "Exit code: 0 all runs completed; 1 mistake in scene or command line;\n"
     "2 failure of the program; 3 a run stopped early, --resume goes on;\n4 "
     "completed, but a check of reference.toml does not hold.\n"
     "Words after -- go to PETSc.";
-
-/// The words of the command line.
-struct Arguments
-{
-  fs::path scene;
-  std::vector<std::string> overrides;
-  fs::path results;
-  bool quiet = false;
-  bool keys = false;
-  bool resume = false;
-};
 
 /// A run to be made: what differs between members, its scene, and its mesh if
 /// that comes from a file (without cells but on rank 0).
@@ -101,21 +84,6 @@ std::string broadcast(MPI_Comm comm, std::string text)
   return text;
 }
 
-/// Print complaints, each once: members of a sweep share most of theirs.
-void print(const std::vector<scene::Complaint>& complaints)
-{
-  std::vector<std::string> lines;
-  for (const scene::Complaint& complaint : complaints)
-    if (const std::string line = to_string(complaint);
-        std::ranges::find(lines, line) == lines.end())
-      lines.push_back(line);
-  for (const std::string& line : lines)
-    std::cerr << line << "\n";
-  std::cerr << "mmale: " << lines.size()
-            << (lines.size() == 1 ? " complaint" : " complaints")
-            << ", nothing was run\n";
-}
-
 /// Read the scene of every member of the sweep; all complaints of all.
 /// @param meshes null on ranks that leave files to rank 0
 std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
@@ -150,17 +118,6 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
     jobs.push_back(std::move(job));
   }
   return jobs;
-}
-
-/// results/<name>: the folder of a scene.toml, else the file's own stem.
-fs::path results_folder(const Arguments& given)
-{
-  if (not given.results.empty())
-    return given.results;
-  const fs::path folder = fs::absolute(given.scene).parent_path().filename();
-  const bool named_by_folder =
-      given.scene.filename() == "scene.toml" and not folder.empty();
-  return "results" / (named_by_folder ? folder : given.scene.stem());
 }
 
 /// What a throw of ours comes to: told and, with company, the end of all
@@ -292,7 +249,7 @@ Exit run_verb(MPI_Comm comm, const Arguments& given)
 {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  const fs::path results = results_folder(given);
+  const fs::path results = results_folder(given, "scene.toml");
   scene::FileText file;
   std::vector<scene::Complaint> complaints;
   std::vector<Job> jobs;
@@ -356,18 +313,48 @@ Exit check_verb(const Arguments& given)
   {
     if (jobs.size() > 1)
       std::cout << "# " << job.member.folder << "\n";
+    if (const auto water = drainage(job.scene))
+      std::cout << "# " << water->words() << "\n";
     std::cout << scene::describe(job.scene) << "\n";
   }
   return good;
 }
 
-/// The options of both verbs.
+/// The verb `element`.
+void define_element(CLI::App& app, Arguments& given,
+                    const std::function<void(CLI::App*)>& overrides)
+{
+  CLI::App* verb = app.add_subcommand(
+      "element", "One material point along the paths of an element test");
+  CLI::Option* test =
+      verb->add_option("test", given.scene, "the test")->type_name("TEST.toml");
+  overrides(verb);
+  verb->add_option("--results", given.results,
+                   "where to write; default results/<name of the test>")
+      ->type_name("DIR");
+  verb->add_flag("--quiet", given.quiet, "Nothing on the screen");
+  CLI::Option* keys =
+      verb->add_flag("--keys", given.keys, "List every key of a test");
+  verb->footer(
+      "Exit code: 0 all tests completed; 1 mistake in test or command line;\n"
+      "2 failure of the program; 3 a test stopped early: what is prescribed\n"
+      "cannot be met; 4 completed, but a check of reference.toml beside the\n"
+      "test does not hold.");
+  verb->final_callback(
+      [keys, test]
+      {
+        if (not*keys and not*test)
+          throw CLI::RequiredError("TEST.toml");
+      });
+}
+
+/// The options of all verbs.
 void define(CLI::App& app, Arguments& given)
 {
   const auto overrides = [&](CLI::App* verb)
   {
     verb->add_option("changes", given.overrides,
-                     "keys of the scene, mesh.size=0.025; several values, "
+                     "keys of the file, mesh.size=0.025; several values, "
                      "mesh.size=0.1,0.05, make a sweep")
         ->type_name("key=value");
   };
@@ -400,6 +387,7 @@ void define(CLI::App& app, Arguments& given)
         if (not*keys and not*scene)
           throw CLI::RequiredError("SCENE.toml");
       });
+  define_element(app, given, overrides);
 }
 } // namespace
 
@@ -433,6 +421,8 @@ int main(int argc, char* argv[])
         return error.get_exit_code() == 0 ? good : mistake;
       return app.exit(error) == 0 ? good : mistake;
     }
+    if (app.got_subcommand("element"))
+      return element::element_verb(given);
     if (not environment)
       return check_verb(given);
     try

@@ -19,6 +19,16 @@ double sum(MPI_Comm comm, double x)
   return x;
 }
 
+/// Root of the mean square over all ranks. Collective.
+double rms(MPI_Comm comm, std::span<const double> v)
+{
+  double total[2] = {0, static_cast<double>(v.size())};
+  for (double x : v)
+    total[0] += x * x;
+  MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_DOUBLE, MPI_SUM, comm);
+  return std::sqrt(total[0] / total[1]);
+}
+
 /// Boundaries that some stage holds or loads, or whose curve is asked for.
 std::vector<int> watched(const Simulation& sim)
 {
@@ -62,11 +72,16 @@ Monitor::Monitor(Simulation& sim)
   if (sim.problem)
     for (const char* name : {"iterations", "pressure_gap", "volume_gap"})
       _names.emplace_back(name);
+  if (has_void_ratio())
+    for (const char* name : {"grain_gap", "grain_gap_patch"})
+      _names.emplace_back(name);
   if (sim.remap)
     for (const char* name : {"quality", "cycles", "clipped"})
       _names.emplace_back(name);
   _spots = _probe.locate(_points);
   _reactions.assign(sim.domain.boundary_names.size(), {0, 0});
+  if (not sim.state.p_w.empty())
+    _discharge.assign(sim.domain.boundary_names.size(), 0);
   _start = ledger();
   _volume = volume();
 }
@@ -198,8 +213,12 @@ void Monitor::after_step(double dt)
                             ? 2 * std::numbers::pi
                             : 1;
     _lagrangian_volume += turn * sum(_sim.domain.comm, end) - _volume;
+    if (not _sim.state.p_w.empty())
+      _seeped +=
+          turn * sum(_sim.domain.comm, _sim.problem->element().water_gained());
     _volume = volume();
     _reactions = _sim.problem->reactions();
+    _discharge = _sim.problem->discharge();
   }
   if (not _points.empty())
   {
@@ -226,7 +245,17 @@ double Monitor::value(const Column& c) const
   if (q.ends_with("_energy") or q.ends_with("_work"))
     return energy(q);
   if (q.starts_with("stress"))
-    return stress(c.point, q.substr(7));
+    return stress(c.point, q.substr(7), cell_stress());
+  if (q.starts_with("effective_stress"))
+    return stress(c.point, q.substr(17), effective_stress());
+  if (q == "discharge")
+    return _discharge[c.boundary];
+  if (q == "pore_pressure")
+  {
+    const auto p_w = pore_pressure();
+    return c.boundary >= 0 ? boundary_mean(c.boundary, p_w, 1, 0)
+                           : sample(p_w, 1)[c.point];
+  }
   return c.boundary >= 0 ? boundary_mean(c.boundary, state.p, 1, 0)
                          : sample(state.p, 1)[c.point];
 }
@@ -260,16 +289,92 @@ double Monitor::energy(const std::string& quantity) const
                                       : kinetic + turn * work.internal;
 }
 
-/// Component xx, yy, zz or xy of the stress in the cell around a point.
-double Monitor::stress(int point, const std::string& component) const
+/// Component xx, yy, zz or xy of a cells' stress, at a point.
+double Monitor::stress(int point, const std::string& component,
+                       std::span<const double> all) const
 {
   const std::vector<std::string> names{"xx", "yy", "zz", "xy"};
   const auto at = std::ranges::find(names, component) - names.begin();
-  const auto all = cell_stress();
   return _probe.sample(_spots, {.name = "",
                                 .location = output::Location::cell,
                                 .components = 4,
                                 .values = all})[4 * point + at];
+}
+
+/// A number of the water in the cells: 0 its pressure, 1 the porosity.
+std::vector<double> Monitor::water(std::size_t number) const
+{
+  const std::size_t h = _sim.problem->element().num_history();
+  const auto means = cell_mean(_sim.state.history, h);
+  std::vector<double> out(means.size() / h);
+  for (std::size_t c = 0; c < out.size(); ++c)
+    out[c] = means[h * c + h - 2 + number];
+  return out;
+}
+
+/// Pore pressure of the nodes: an unknown, or the mean of the corners around
+/// [Pa]. Collective.
+std::vector<double> Monitor::pore_pressure() const
+{
+  const State& state = _sim.state;
+  if (not state.p_w.empty())
+    return state.p_w;
+  return corner_mean(water(0));
+}
+
+/// Means of a cells' field over the corners around the nodes. Collective.
+std::vector<double> Monitor::corner_mean(std::span<const double> cells) const
+{
+  const bool axisymmetric =
+      _sim.scene.symmetry == scene::Symmetry::axisymmetric;
+  const auto& x = _sim.state.x;
+  auto out = mesh::lump(_sim.domain, x, cells, axisymmetric);
+  const auto volume = mesh::lump(_sim.domain, x, {}, axisymmetric);
+  for (std::size_t n = 0; n < out.size(); ++n)
+    out[n] /= volume[n];
+  return out;
+}
+
+bool Monitor::has_void_ratio() const
+{
+  return _sim.problem and _sim.problem->element().has_void_ratio();
+}
+
+/// Element::grain_gap of all cells, ghosts too.
+std::vector<double> Monitor::grain_gap() const
+{
+  std::vector<double> out(_sim.state.density.size());
+  for (std::size_t c = 0; c < out.size(); ++c)
+    out[c] = _sim.problem->element().grain_gap(_sim.state, static_cast<int>(c));
+  return out;
+}
+
+/// Stress that the skeleton carries, shape (cells, 4) [Pa].
+std::vector<double> Monitor::effective_stress() const
+{
+  auto stress = cell_stress();
+  const auto p_w = water(0);
+  for (std::size_t c = 0; c < p_w.size(); ++c)
+    for (int i = 0; i < 3; ++i)
+      stress[4 * c + i] += p_w[c];
+  return stress;
+}
+
+void Monitor::add_water_fields(std::vector<output::NamedField>& out)
+{
+  using output::Location;
+  auto& [p_w, porosity, effective, p] = _of_water;
+  p_w = pore_pressure();
+  porosity = water(1);
+  effective = effective_stress();
+  out.push_back({"pore_pressure", Location::nodal, 1, p_w, "Pa"});
+  out.push_back({"porosity", Location::cell, 1, porosity, ""});
+  p.resize(porosity.size());
+  for (std::size_t c = 0; c < p.size(); ++c)
+    p[c] =
+        -(effective[4 * c] + effective[4 * c + 1] + effective[4 * c + 2]) / 3;
+  out.push_back({"effective_stress", Location::cell, 4, effective, "Pa"});
+  out.push_back({"effective_pressure", Location::cell, 1, p, "Pa"});
 }
 
 /// Means over the points of the cells; `size` numbers a point.
@@ -308,6 +413,15 @@ std::vector<double> Monitor::row(double step, const StepLog& log)
     const auto gap = _sim.problem->mismatch(_sim.state);
     out.insert(out.end(), gap.begin(), gap.end());
   }
+  if (has_void_ratio())
+  {
+    const auto gap = grain_gap();
+    const auto n = static_cast<std::size_t>(_sim.domain.num_owned_nodes);
+    const auto m = static_cast<std::size_t>(_sim.domain.num_owned_cells);
+    const auto patch = corner_mean(gap);
+    out.push_back(rms(_sim.domain.comm, std::span(gap).first(m)));
+    out.push_back(rms(_sim.domain.comm, std::span(patch).first(n)));
+  }
   if (_sim.remap)
     out.insert(out.end(), {bridge::worst_quality(_sim.domain, _sim.state),
                            static_cast<double>(log.remap.cycles),
@@ -335,7 +449,7 @@ output::Ledger Monitor::ledger() const
                    .unit = "kg" + per,
                    .end = integral(_sim.state.density),
                    .through_surface = turn * passed.mass.through,
-                   .booked = turn * passed.mass.at_walls});
+                   .booked = _seeped + turn * passed.mass.at_walls});
   for (const auto& [name, values] : _sim.state.tracer)
     out.push_back({.name = name,
                    .unit = "m3" + per,
@@ -353,8 +467,12 @@ void Monitor::keep(output::Archive& archive)
   archive("monitor/displacement", _displacement);
   archive("monitor/moved", _moved);
   archive("monitor/reactions", _reactions);
+  if (not _discharge.empty())
+    archive("monitor/discharge", _discharge);
   archive("monitor/volume", _volume);
   archive("monitor/lagrangian_volume", _lagrangian_volume);
+  if (not _sim.state.p_w.empty())
+    archive("monitor/seeped", _seeped);
   std::vector<double> start;
   for (const auto& entry : _start)
     start.push_back(entry.start);
@@ -378,7 +496,7 @@ std::vector<output::NamedField> Monitor::fields()
   if (not _sim.law)
     return out;
   const std::size_t cells = state.density.size();
-  auto& [mises, stress, history] = _derived;
+  auto& [mises, stress, history, gap] = _derived;
   stress = cell_stress();
   mises.resize(cells);
   for (std::size_t c = 0; c < cells; ++c)
@@ -391,18 +509,29 @@ std::vector<output::NamedField> Monitor::fields()
   out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
   out.push_back({"stress", Location::cell, 4, stress, "Pa"});
   out.push_back({"density", Location::cell, 1, state.density, "kg/m3"});
+  if (not state.apex.empty())
+    out.push_back({"apex", Location::cell, 1, state.apex, ""});
   // history numbers come apart, one field each
-  const auto names = material::history_names(*_sim.law);
+  const auto names =
+      material::history_names(*_sim.law, _sim.scene.water.has_value());
   const std::size_t h = names.size();
   const auto means = cell_mean(state.history, h);
   history.resize(h * cells);
-  for (std::size_t k = 0; k < h; ++k)
+  const std::size_t of_law = h - (_sim.scene.water ? 2 : 0);
+  for (std::size_t k = 0; k < of_law; ++k)
   {
     for (std::size_t c = 0; c < cells; ++c)
       history[k * cells + c] = means[h * c + k];
     out.push_back({names[k], Location::cell, 1,
                    std::span(history).subspan(k * cells, cells), ""});
   }
+  if (has_void_ratio())
+  {
+    gap = grain_gap();
+    out.push_back({"grain_gap", Location::cell, 1, gap, ""});
+  }
+  if (_sim.scene.water)
+    add_water_fields(out);
   return out;
 }
 } // namespace mmale

@@ -47,11 +47,19 @@ private:
   double value(const Column& c) const;
   double tracer(const scene::Curve& c) const;
   double energy(const std::string& quantity) const;
-  double stress(int point, const std::string& component) const;
+  double stress(int point, const std::string& component,
+                std::span<const double> all) const;
   std::vector<double> sample(std::span<const double> nodal, int size) const;
   std::vector<double> cell_mean(std::span<const double> v,
                                 std::size_t size) const;
   std::vector<double> cell_stress() const;
+  std::vector<double> effective_stress() const;
+  std::vector<double> water(std::size_t number) const;
+  std::vector<double> pore_pressure() const;
+  std::vector<double> corner_mean(std::span<const double> cells) const;
+  bool has_void_ratio() const;
+  std::vector<double> grain_gap() const;
+  void add_water_fields(std::vector<output::NamedField>& out);
   double boundary_mean(int boundary, std::span<const double> nodal, int size,
                        int component) const;
   double breadth(const scene::Curve& c) const;
@@ -68,9 +76,13 @@ private:
   std::vector<output::Spot> _spots;
   std::vector<std::array<double, 2>> _moved; ///< of each boundary, mean
   std::vector<std::array<double, 2>> _reactions;
+  std::vector<double> _discharge; ///< of each boundary, with seepage
   output::Ledger _start;
-  double _volume = 0;              ///< at the end of the last step
-  double _lagrangian_volume = 0;   ///< change by the material's own motion
-  std::vector<double> _derived[3]; ///< von Mises, stress, history
+  double _volume = 0;               ///< at the end of the last step
+  double _seeped = 0;               ///< mass of water that flowed in
+  double _lagrangian_volume = 0;    ///< change by the material's own motion
+  std::vector<double> _derived[4];  ///< von Mises, stress, history, grain gap
+  std::vector<double> _of_water[4]; ///< p_w, porosity, effective stress and
+                                    ///< pressure
 };
 } // namespace mmale

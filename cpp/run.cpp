@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "run.h"
 
+#include "drainage.h"
+#include "initial.h"
 #include "lay.h"
 #include "monitor.h"
 #include "output/archive.h"
@@ -18,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dolfinx/common/MPI.h>
+#include <format>
 #include <iostream>
 #include <spdlog/spdlog.h>
 #include <sstream>
@@ -34,6 +37,8 @@ public:
   Result go();
 
 private:
+  void settle();
+  void count(const material::Effort& effort);
   void enter_stage();
   bool stage();
   bool attempt();
@@ -200,6 +205,15 @@ Run::Run(MPI_Comm comm, const scene::Scene& scene, const RunOptions& options)
   _summary.ranks = dolfinx::MPI::size(comm);
   _summary.versions = output::versions();
   _summary.scene = options.scene_as_understood;
+  if (const auto water = drainage(scene))
+  {
+    _summary.water = {{"T_v", water->T_v},
+                      {"c_v", water->c_v},
+                      {"frequency", water->frequency},
+                      {"drainage_length", water->length}};
+    _summary.water_recommended = water->recommended;
+    _progress.note(water->words());
+  }
   _summary.cells = _sim.domain.cell_map().size_global();
   _summary.nodes = _sim.domain.nodes().size_global();
   output::on_root(comm,
@@ -273,6 +287,9 @@ void Run::keep_books(output::Archive& archive)
   archive("summary/remaps", _summary.remaps);
   archive("summary/remaps_left_out", _summary.remaps_left_out);
   archive("summary/remap_trouble", _summary.remap_trouble);
+  archive("summary/initial_imbalance", _summary.initial_imbalance);
+  for (const char* what : {"substeps", "rejected", "apex", "clipped"})
+    archive(std::string("summary/law_") + what, _summary.law[what]);
   archive("summary/resumed", _summary.resumed);
   mmale::keep(archive, _curves);
   mmale::keep(archive, _sim.clock, timings());
@@ -340,6 +357,15 @@ void Run::enter_stage()
     _sim.problem->set_stage(stage, _sim.state);
 }
 
+/// What the laws took in a step, into the summary.
+void Run::count(const material::Effort& effort)
+{
+  _summary.law["substeps"] += effort.substeps;
+  _summary.law["rejected"] += effort.rejected;
+  _summary.law["apex"] += effort.apex;
+  _summary.law["clipped"] += effort.clipped;
+}
+
 /// One step; false when it fails at the floor.
 bool Run::attempt()
 {
@@ -362,6 +388,8 @@ bool Run::attempt()
     ++_summary.remaps_left_out;
     _summary.remap_trouble = log.remap.trouble;
   }
+  if (_sim.problem)
+    count(_sim.problem->effort());
   _summary.remaps += log.remap.done;
   ++_summary.steps;
   _control->accepted(static_cast<int>(log.newton.residuals.size()) - 1);
@@ -438,15 +466,30 @@ void Run::check()
       output::evaluate(_references.entries, _curves, _summary.ledger);
 }
 
+/// Ground begins at rest.
+void Run::settle()
+{
+  if (not _scene.initial.K0)
+    return;
+  const Balance balance = mmale::settle(_sim);
+  _summary.initial_imbalance = balance.settled;
+  _progress.note(std::format("initial stress: {:.1e} of the weight out of "
+                             "balance as laid, {:.1e} when settled",
+                             balance.as_laid, balance.settled));
+}
+
 Result Run::go()
 {
   if (_loaded)
     resume();
   else
   {
+    settle();
     record(0, {});
     write_fields();
     enter_stage();
+    if (_scene.initial.K0)
+      _sim.problem->rest_under_gravity();
   }
   _checkpoint_due = _sim.clock.wall() + _scene.output.checkpoint_every;
   bool completed = stage();

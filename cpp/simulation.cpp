@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "simulation.h"
 
+#include "initial.h"
 #include "mesh/gmsh.h"
 #include <algorithm>
 #include <cmath>
@@ -89,24 +90,11 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
     const auto& material = scene.material.begin()->second;
     law = material::make_law(material);
     problem = std::make_unique<lagrangian::Problem>(
-        domain, *law, scene.symmetry, scene.solver, clock);
-    state.p.assign(nodes, 0);
-    const std::size_t points = problem->element().num_points();
-    state.points = static_cast<int>(points);
-    state.s.assign(4 * cells * points, 0);
-    state.P.assign(cells * points, 0);
+        domain, *law, scene.symmetry, scene.solver, scene.water, clock);
+    state.points = problem->element().num_points();
     for (std::size_t i = 0; i < 2 * nodes; ++i)
       state.v[i] = scene.initial.velocity[i % 2];
-    state.density.assign(cells, problem->element().density());
-    const std::size_t h = problem->element().num_history();
-    state.history.resize(cells * points * h);
-    std::visit(
-        [&](const auto& l)
-        {
-          for (std::size_t q = 0; q < cells * points; ++q)
-            l.begin({}, std::span(state.history).subspan(h * q, h));
-        },
-        *law);
+    fill_initial(scene, domain, problem->element(), state);
   }
   if (scene.remap.mode != scene::RemapMode::lagrangian)
     remap = std::make_unique<bridge::RemapStep>(domain, scene, law, clock);

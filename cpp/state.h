@@ -23,13 +23,18 @@ struct State
   int points = 1;        ///< stress states a cell
   std::vector<double> x; ///< nodes, shape (n, 2) [m]
   std::vector<double> p; ///< nodal total pressure, shape (n) [Pa]
+  std::vector<double>
+      p_w;               ///< nodal pore pressure, with seepage, shape (n) [Pa]
   std::vector<double> v; ///< velocity; in statics displacement increment /
                          ///< step, shape (n, 2) [m/s]
 
   std::vector<double> s; ///< deviator xx yy zz xy, shape (m, points, 4) [Pa]
   std::vector<double> P; ///< pressure of the points, shape (m, points) [Pa]
-  std::vector<double> history; ///< the law's numbers, shape (m, points, h)
+  std::vector<double> history; ///< the law's numbers, then those of the water,
+                               ///< shape (m, points, h)
   std::vector<double> density; ///< of the cells, shape (m) [kg/m3]
+  std::vector<double> apex; ///< steps that met the law's zero-stress floor, of
+                            ///< laws that have one, shape (m)
   std::map<std::string, std::vector<double>> tracer; ///< shape (m) each
 
   // of dynamic stages
@@ -63,11 +68,13 @@ void for_each_field(S& state, Visit&& visit)
 {
   visit("x", Entity::node, state.x);
   visit("p", Entity::node, state.p);
+  visit("p_w", Entity::node, state.p_w);
   visit("v", Entity::node, state.v);
   visit("s", Entity::cell, state.s);
   visit("P", Entity::cell, state.P);
   visit("density", Entity::cell, state.density);
   visit("history", Entity::cell, state.history);
+  visit("apex", Entity::cell, state.apex);
   visit("a", Entity::node, state.a);
   visit("force", Entity::node, state.force);
   visit("inner", Entity::node, state.inner);

@@ -6,7 +6,8 @@ acceleration, velocity and pressure rate at the end of the step as lines,
 
     a = a_0 + c_a u,    v = v_0 + c_v u,    dp/dt = r_0 + c_r p.
 
-    bubble, layout mean         rho (a - a_n + lambda a + c_a u_b) . v_b    (a fluid: no a_n)
+    bubble, layout mean         rho (a - a_n + lambda a + c_a u_b) . v_b
+                                (of a fluid without a_n)
     damping                     b (2 mu dev D(v) - dp/dt I) : grad v
 
 The bubbles of layout `quadrature` have none. They hold a stress from step to step

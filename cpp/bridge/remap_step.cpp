@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "history_fields.h"
+#include "material/water.h"
 #include "mesh/corners.h"
 #include "output/archive.h"
 #include "placement.h"
@@ -147,8 +149,14 @@ struct RemapStep::Impl
 
   bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
-  void add_stress(State& state, std::vector<::remap::Field>& fields) const;
+  void add_stress(State& state, std::vector<::remap::Field>& fields);
   void make_admissible(State& state, RemapLog& log);
+  void to_effective(State& state) const;
+  void to_total(State& state) const;
+  int water_numbers() const
+  {
+    return scene.water ? material::Water::num_history : 0;
+  }
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -160,6 +168,7 @@ struct RemapStep::Impl
   std::optional<::remap::PointMesh> points; // with layout `quadrature`
   ::remap::Remapper remapper;
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
+  HistoryFields travelling;
   ::remap::Ledger ledger;
 
   std::optional<Placement> placement;
@@ -183,9 +192,9 @@ make_points(const mesh::Domain& domain, const scene::Scene& scene,
                             domain.initial_x);
 }
 
-int history_numbers(const std::optional<material::AnyLaw>& law)
+int history_numbers(const std::optional<material::AnyLaw>& law, bool water)
 {
-  return law ? material::num_history(*law) : 0;
+  return law ? material::num_history(*law, water) : 0;
 }
 } // namespace
 
@@ -194,10 +203,11 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
                       output::Clock& clock)
     : domain(domain), scene(scene), law(law), clock(clock),
       host(make_host(domain)), mesh(make_mesh(domain)),
-      history(history_numbers(law)),
+      history(history_numbers(law, scene.water.has_value())),
       points(make_points(domain, scene, law, mesh)),
       remapper(mesh, transport_options(domain, scene, law.has_value(), history,
-                                       points ? &*points : nullptr))
+                                       points ? &*points : nullptr)),
+      travelling(law, scene.water.has_value())
 {
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
@@ -282,7 +292,7 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
 
 /// The law's arrays: of the cells, or of their points.
 void RemapStep::Impl::add_stress(State& state,
-                                 std::vector<::remap::Field>& fields) const
+                                 std::vector<::remap::Field>& fields)
 {
   static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
   // `admit` has the last word on the yield surface, so order 2 is not given up.
@@ -292,8 +302,8 @@ void RemapStep::Impl::add_stress(State& state,
                     .bound = ::remap::Bound::ball,
                     .weights = metric});
   fields.push_back({.values = state.P});
-  if (history > 0)
-    fields.push_back({.values = state.history, .components = history});
+  travelling.take(state.history);
+  travelling.add_to(fields);
 }
 
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,
@@ -309,6 +319,8 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     cells.push_back({.values = state.density});
     add_stress(state, points ? at_points : cells);
     nodes.push_back({.values = state.p});
+    if (not state.p_w.empty())
+      nodes.push_back({.values = state.p_w});
   }
   if (not state.a.empty())
   {
@@ -338,6 +350,7 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     ledger = before;
     return false;
   }
+  travelling.give(state.history);
   std::ranges::copy(x, state.x.begin());
   return true;
 }
@@ -357,7 +370,8 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
           const double part = l.admit(
               Eigen::Map<material::Voigt>(state.s.data() + 4 * q), state.P[q],
               std::span(state.history)
-                  .subspan(static_cast<std::size_t>(history) * q, history));
+                  .subspan(static_cast<std::size_t>(history) * q,
+                           history - water_numbers()));
           if (q < owned)
             clipped += part > 0;
           largest = std::max(largest, part);
@@ -382,13 +396,41 @@ void RemapStep::keep(output::Archive& archive)
   archive("remap/nodes", m.ledger.nodes);
 }
 
+/// What travels is p' and p_w, so that neither has the other's jumps: cells and
+/// nodes have effective pressures between this and `to_total`.
+void RemapStep::Impl::to_effective(State& state) const
+{
+  const auto h = static_cast<std::size_t>(history);
+  for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
+    state.P[q] -=
+        material::pores(std::span(state.history).subspan(h * q, h)).p_w;
+  for (std::size_t n = 0; n < state.p_w.size(); ++n)
+    state.p[n] -= state.p_w[n];
+}
+
+void RemapStep::Impl::to_total(State& state) const
+{
+  const auto h = static_cast<std::size_t>(history);
+  for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
+    state.P[q] +=
+        material::pores(std::span(state.history).subspan(h * q, h)).p_w;
+  for (std::size_t n = 0; n < state.p_w.size(); ++n)
+    state.p[n] += state.p_w[n];
+}
+
 void RemapStep::run(State& state, RemapLog& log)
 {
   std::vector<double> x;
-  if (not _impl->smooth(state, x, log) or not _impl->transport(state, x, log))
+  if (not _impl->smooth(state, x, log))
+    return;
+  _impl->to_effective(state);
+  const bool moved = _impl->transport(state, x, log);
+  if (moved)
+    _impl->make_admissible(state, log);
+  _impl->to_total(state);
+  if (not moved)
     return;
   _impl->home = state.x;
-  _impl->make_admissible(state, log);
   log.quality = worst_quality(_impl->domain, state);
   log.done = true;
 }

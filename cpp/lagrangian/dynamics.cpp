@@ -170,6 +170,8 @@ void Problem::rebalance(State& state, double t)
   std::ranges::copy(_constants.g, _constants.g_n);
   _constants.b = _newmark->scheme().damping_stiffness;
   _newmark->freeze(state);
+  if (_pore_pressure)
+    std::ranges::copy(state.p_w, _pore_pressure->trial().begin());
   _loads.begin_step(_conditions->loads(t), &*_newmark,
                     [this](int cell) { return impedance(cell); });
   _element->begin_step(state, 0);

@@ -2,30 +2,43 @@
 #include "element.h"
 
 #include "mean_element.h"
+#include "mesh/corners.h"
 #include "point_element.h"
 #include <algorithm>
+#include <stdexcept>
 
 namespace mmale::lagrangian
 {
 Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
                  scene::Symmetry symmetry, const scene::Solver& options,
-                 int points)
+                 const std::optional<scene::Water>& water, int points)
     : _domain(domain), _law(law),
       _axisymmetric(symmetry == scene::Symmetry::axisymmetric),
       _options(options),
       _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
-      _num_points(points), _num_history(material::num_history(law)),
+      _num_points(points),
+      _num_history(material::num_history(law, water.has_value())),
       _volume(domain.num_owned_cells),
       _history(static_cast<std::size_t>(_num_history) * points
                * domain.num_owned_cells),
       _G(domain.num_owned_cells)
 {
+  if (water)
+  {
+    _water = {water->bulk_modulus, water->grain_bulk_modulus,
+              water->cavitation_pressure};
+    _flows = water->seepage();
+    _rho_f = water->density;
+    _porosity = water->porosity;
+  }
   int at = 0;
   for (const material::HistoryField& field :
        std::visit([](const auto& l) { return l.history(); }, law))
   {
     if (field.size == 4)
       _tensors.push_back(at);
+    if (field.name == "void_ratio")
+      _void_ratio = at;
     at += field.size;
   }
 }
@@ -36,27 +49,114 @@ void Element::begin_step(const State& state, double dt)
     _G[c] = moduli(state, c, dt).G;
 }
 
-material::Moduli Element::moduli(const State& state, int c, double dt) const
+material::Moduli Element::moduli(const State& state, int c, double dt,
+                                 bool fast) const
 {
   material::Moduli mean{0, 0};
-  std::visit(
-      [&](const auto& law)
+  with_medium(
+      [&](const auto& medium)
       {
         for (int q = c * _num_points; q < (c + 1) * _num_points; ++q)
         {
-          const auto [G, K] = law.moduli(point(state, q), dt);
+          const material::Point at = point(state, q);
+          const auto [G, K] = medium(0).moduli(at, dt);
           mean.G += G / _num_points;
           mean.K += K / _num_points;
+          if (_flows and fast)
+            mean.K += 1 / _water->compressibility(material::pores(at.q))
+                      / _num_points;
         }
+      });
+  return mean;
+}
+
+bool Element::has_floor() const
+{
+  return std::visit([]<class L>(const L&)
+                    { return not material::LinearPressure<L>; }, _law);
+}
+
+double Element::begin(const material::Start& start, double p_w,
+                      std::span<double> q) const
+{
+  const int own = _num_history - (_water ? material::Water::num_history : 0);
+  return std::visit(
+      [&](const auto& law)
+      {
+        law.begin(start, q.first(own));
+        const double rho = material::initial_density(law, start);
+        if (not _water)
+          return rho;
+        material::Pores pores{p_w, _porosity};
+        if (has_void_ratio())
+          pores.n = q[_void_ratio] / (1 + q[_void_ratio]);
+        material::set_pores(pores, q);
+        return rho + pores.n * _rho_f;
       },
       _law);
-  return mean;
+}
+
+double Element::grain_gap(const State& state, int c) const
+{
+  double density = 0;
+  std::vector<double> q(_num_history);
+  for (int i = c * _num_points; i < (c + 1) * _num_points; ++i)
+    density += begin({.void_ratio = point(state, i).q[_void_ratio]}, 0, q)
+               / _num_points;
+  return std::log(state.density[c] / density);
+}
+
+double Element::end_density(const State& state, int c) const
+{
+  const double shrunk = std::exp(-ln_J(c));
+  if (not _flows)
+    return state.density[c] * shrunk;
+  double water[2] = {0, 0}; // at start and end
+  for (int q = c * _num_points; q < (c + 1) * _num_points; ++q)
+  {
+    const auto at = static_cast<std::size_t>(_num_history) * q;
+    const std::span<const double> end(_history);
+    water[0] += _rho_f * material::pores(point(state, q).q).n / _num_points;
+    water[1] +=
+        _rho_f * material::pores(end.subspan(at, _num_history)).n / _num_points;
+  }
+  return (state.density[c] - water[0]) * shrunk + water[1];
+}
+
+double Element::pore_pressure(int c) const
+{
+  if (not _seepage)
+    return 0;
+  const auto [i, j, k] = _domain.cells[c];
+  const auto p_w = _seepage->trial();
+  return (p_w[i] + p_w[j] + p_w[k]) / 3;
+}
+
+FlowRow Element::flow(const State&, int, std::span<const double>,
+                      const Constants&)
+{
+  throw std::logic_error("this layout has no seepage");
+}
+
+FlowTangent Element::flow_tangent(const State&, int, std::span<const double>,
+                                  const Constants&)
+{
+  throw std::logic_error("this layout has no seepage");
+}
+
+double Element::driven_pressure(const State& state, int q) const
+{
+  if (not _flows)
+    return state.P[q];
+  const auto h = static_cast<std::size_t>(_num_history);
+  return state.P[q]
+         - material::pores(std::span(state.history).subspan(h * q, h)).p_w;
 }
 
 material::Point Element::point(const State& state, int q) const
 {
   return {
-      Voigt(state.s.data() + 4 * q), state.P[q],
+      Voigt(state.s.data() + 4 * q), driven_pressure(state, q),
       std::span(state.history)
           .subspan(static_cast<std::size_t>(_num_history) * q, _num_history)};
 }
@@ -88,6 +188,8 @@ bool Element::symmetric() const
 {
   if (_options.element == scene::Element::constant_strain)
     return false; // its nodal pressure only listens
+  if (_flows)
+    return false; // the row of the flow
   // layout mean: the plastic bubble enters the volume equation alone, and the
   // nodes' acceleration only the bubble's
   const bool flows =
@@ -96,13 +198,6 @@ bool Element::symmetric() const
          and std::visit([flows](const auto& l)
                         { return l.symmetric and not(l.yields and flows); },
                         _law);
-}
-
-double Element::density() const
-{
-  return std::visit([](const auto& l)
-                    { return material::initial_density(l, material::Start{}); },
-                    _law);
 }
 
 double Element::force_squared(const State& state, int c) const
@@ -152,8 +247,18 @@ void Element::gather_newmark(const State& state, int c, NewmarkInput& in) const
 void Element::accept(State& state, std::span<const double> z, double dt)
 {
   accept_stress(state);
+  _water_gained = 0;
   for (int c = 0; c < _domain.num_owned_cells; ++c)
-    state.density[c] *= std::exp(-ln_J(c));
+  {
+    const double before = state.density[c];
+    state.density[c] = end_density(state, c);
+    if (_flows)
+      _water_gained +=
+          state.density[c] * _volume[c]
+          - before * mesh::cell_volume(_domain, state.x, c, _axisymmetric);
+    if (not state.apex.empty())
+      state.apex[c] += effort(c).apex > 0;
+  }
   std::ranges::copy(_history, state.history.begin());
   for (int n = 0; n < _domain.num_nodes(); ++n)
   {
@@ -167,6 +272,8 @@ void Element::accept(State& state, std::span<const double> z, double dt)
   _domain.cell_halo->update(state.s, 4 * _num_points);
   _domain.cell_halo->update(state.P, _num_points);
   _domain.cell_halo->update(state.density, 1);
+  if (not state.apex.empty())
+    _domain.cell_halo->update(state.apex, 1);
   if (_num_history > 0)
     _domain.cell_halo->update(state.history, _num_history * _num_points);
 }
@@ -174,12 +281,15 @@ void Element::accept(State& state, std::span<const double> z, double dt)
 std::unique_ptr<Element> make_element(const mesh::Domain& domain,
                                       const material::AnyLaw& law,
                                       scene::Symmetry symmetry,
-                                      const scene::Solver& options)
+                                      const scene::Solver& options,
+                                      const std::optional<scene::Water>& water)
 {
   if (options.layout == scene::Layout::mean)
-    return std::make_unique<MeanElement>(domain, law, symmetry, options);
+    return std::make_unique<MeanElement>(domain, law, symmetry, options, water);
   if (options.points == 3)
-    return std::make_unique<PointElement<3>>(domain, law, symmetry, options);
-  return std::make_unique<PointElement<6>>(domain, law, symmetry, options);
+    return std::make_unique<PointElement<3>>(domain, law, symmetry, options,
+                                             water);
+  return std::make_unique<PointElement<6>>(domain, law, symmetry, options,
+                                           water);
 }
 } // namespace mmale::lagrangian

@@ -4,16 +4,36 @@
 #include "kernel.h"
 #include "kinematics.h"
 #include "material/library.h"
+#include "material/water.h"
 #include "mesh/domain.h"
 #include "newmark.h"
+#include "pore_pressure.h"
 #include "scene/scene.h"
 #include "state.h"
 #include <memory>
+#include <optional>
 
 /// The condensed MINI element (METHOD.md, 1 Lagrangian step).
 namespace mmale::lagrangian
 {
 using material::Outcome;
+
+/// A cell's row of the pore pressure.
+struct FlowRow
+{
+  std::array<double, 3>
+      R;                 ///< volume that is missing at a node [m3/m or m3/rad]
+  double size_squared;   ///< of the flows that it is a sum of
+  double digits_squared; ///< of their last digits, over epsilon
+};
+
+/// Blocks of the pore pressure in a cell's tangent, row-major.
+struct FlowTangent
+{
+  std::array<double, 27> momentum;        ///< rows of u and p, shape (9, 3)
+  std::array<double, 27> by_nodes;        ///< of the flow, by u and p: (3, 9)
+  std::array<double, 9> by_pore_pressure; ///< (3, 3)
+};
 
 /// Evaluates cells: strain, law, kernels, condensation of the bubble. What a
 /// stress layout is; one class a layout.
@@ -24,6 +44,9 @@ public:
 
   /// Inertia in the steps to come, or none; kept by reference.
   void set_newmark(const Newmark* newmark) { _newmark = newmark; }
+
+  /// Water that flows, or none; kept by reference.
+  void set_pore_pressure(const PorePressure* nodes) { _seepage = nodes; }
 
   /// A Newton run begins: nothing is left of the last one.
   virtual void begin_step(const State& state, double dt);
@@ -47,6 +70,15 @@ public:
   virtual void jacobian(const State& state, int cell, std::span<const double> z,
                         const Constants& c, double* J) = 0;
 
+  /// Row of the pore pressure of a cell after `evaluate`; with seepage alone.
+  virtual FlowRow flow(const State& state, int cell, std::span<const double> z,
+                       const Constants& c);
+
+  /// Blocks of the pore pressure, of the cell of the last `jacobian`.
+  virtual FlowTangent flow_tangent(const State& state, int cell,
+                                   std::span<const double> z,
+                                   const Constants& c);
+
   /// Nodal forces of the stresses, gravity and damping after `evaluate`, the
   /// bubble's share left out; (x, y) of three vertices.
   virtual std::array<double, 6> forces(const State& state, int cell,
@@ -60,6 +92,10 @@ public:
 
   /// State at the end of the step, ghosts filled. Collective.
   void accept(State& state, std::span<const double> z, double dt);
+
+  /// Mass of the water that owned cells have gained in the last step, by flow
+  /// [kg/m or kg/rad].
+  double water_gained() const { return _water_gained; }
 
   /// Volume of the cell in the trial state, per unit thickness or radian.
   double volume(int cell) const { return _volume[cell]; }
@@ -81,20 +117,41 @@ public:
   /// Whether the tangent is symmetric but for the geometry's share, which is of
   /// the order of the step's strain and of stress over stiffness.
   bool symmetric() const;
+  /// Does the law's deviator have no memory?
+  bool fluid() const { return _fluid; }
 
+  /// Has the law a zero-stress floor? Then it is counted where it acts.
+  bool has_floor() const;
+
+  bool fluid() const { return _fluid; } ///< its deviator has no memory
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
-  double density() const;
 
-  /// Moduli of a cell as it is: means over its points [Pa].
-  material::Moduli moduli(const State& state, int cell, double dt) const;
+  /// Numbers of a point at the start of a run, and its density [kg/m3].
+  /// @param[in] p_w pore pressure, if there is water [Pa]
+  double begin(const material::Start& start, double p_w,
+               std::span<double> q) const;
 
-  /// What the laws' last answers took, of the owned cells.
-  virtual material::Effort effort() const = 0;
+  /// Does the law know its void ratio?
+  bool has_void_ratio() const { return _void_ratio >= 0; }
+
+  /// Logarithm of a cell's density over the one that goes with its void
+  /// ratios: theta and ln J differ cell by cell, and this is their sum [-].
+  double grain_gap(const State& state, int cell) const;
+
+  /// Moduli of a cell as it is: means over its points [Pa]. With seepage those
+  /// of the skeleton, as in a slow step, unless water and grains are wanted
+  /// too, as in a wave.
+  material::Moduli moduli(const State& state, int cell, double dt,
+                          bool fast = false) const;
+
+  /// What the law's last answer took in a cell.
+  virtual material::Effort effort(int cell) const = 0;
 
 protected:
   Element(const mesh::Domain& domain, const material::AnyLaw& law,
-          scene::Symmetry symmetry, const scene::Solver& options, int points);
+          scene::Symmetry symmetry, const scene::Solver& options,
+          const std::optional<scene::Water>& water, int points);
 
   /// Write deviators and pressures of the owned cells.
   virtual void accept_stress(State& state) const = 0;
@@ -108,6 +165,36 @@ protected:
 
   material::TangentKind tangent_kind() const;
 
+  /// Density of a cell in the trial state: its solids stay, and its water too
+  /// if it does not flow [kg/m3].
+  double end_density(const State& state, int cell) const;
+
+  /// Mean of the nodes' trial pore pressure [Pa]; 0 without seepage.
+  double pore_pressure(int cell) const;
+
+  /// Calls f with what makes a medium, the law and the water that is in it, of
+  /// a pore pressure at the end of the step; media go to `material::drive`.
+  auto with_medium(auto&& f) const
+  {
+    return std::visit(
+        [&]<class L>(const L& law)
+        {
+          if (not _water)
+            return f([&law](double) -> const L& { return law; });
+          const material::Water& water = *_water;
+          if (not _flows)
+            return f([&](double)
+                     { return material::Undrained<L>{law, water}; });
+          return f([&](double p_w)
+                   { return material::Seeping<L>{law, water, p_w}; });
+        },
+        _law);
+  }
+
+  /// Pressure of a point by which its medium is driven: the total one, or the
+  /// effective one where the water flows [Pa].
+  double driven_pressure(const State& state, int q) const;
+
   /// A point of the state, all points counted through.
   material::Point point(const State& state, int q) const;
 
@@ -119,8 +206,15 @@ protected:
   bool _axisymmetric;
   scene::Solver _options;
   bool _fluid; ///< its deviator has no memory
+  std::optional<material::Water> _water;
+  bool _flows = false; ///< the water
+  double _water_gained = 0;
+  double _rho_f = 0;    ///< its density [kg/m3]
+  double _porosity = 0; ///< at the start, if no void ratio tells it
+  const PorePressure* _seepage = nullptr; ///< with water that flows
   int _num_points, _num_history;
   std::vector<int> _tensors; ///< where in the history one begins
+  int _void_ratio = -1;      ///< where it is in the history; -1: nowhere
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
   std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]
@@ -128,10 +222,10 @@ protected:
 
 /// The element of the scene's layout.
 /// @throws std::runtime_error when a form asks for what is not offered
-std::unique_ptr<Element> make_element(const mesh::Domain& domain,
-                                      const material::AnyLaw& law,
-                                      scene::Symmetry symmetry,
-                                      const scene::Solver& options);
+std::unique_ptr<Element>
+make_element(const mesh::Domain& domain, const material::AnyLaw& law,
+             scene::Symmetry symmetry, const scene::Solver& options,
+             const std::optional<scene::Water>& water = std::nullopt);
 
 /// Schur complement of the bubble: what is left in the nodal block.
 struct Condensation

@@ -55,12 +55,36 @@ std::vector<Offer> offers(const PointInput<n>*)
           {"dtheta_dp" + of, offsetof(Input, dtheta_dp), n}};
 }
 
+std::vector<Offer> offers(const SeepageInput*)
+{
+  using Input = SeepageInput;
+  auto out = offers(static_cast<const CellInput*>(nullptr));
+  for (Offer& o : out)
+    o.offset += offsetof(Input, cell);
+  out.insert(out.end(), {{"p_w", offsetof(Input, p_w), 3},
+                         {"p_w_n", offsetof(Input, p_w_n), 3},
+                         {"stored", offsetof(Input, stored), 3},
+                         {"dstored_dp", offsetof(Input, dstored_dp), 3},
+                         {"compliance", offsetof(Input, compliance), 1},
+                         {"mobility", offsetof(Input, mobility), 1},
+                         {"share", offsetof(Input, share), 1},
+                         {"size", offsetof(Input, size), 4},
+                         {"radius", offsetof(Input, radius), 1}});
+  return out;
+}
+
+template <class Input>
+constexpr std::size_t newmark_at = offsetof(Input, newmark);
+template <>
+constexpr std::size_t newmark_at<SeepageInput> =
+    offsetof(SeepageInput, cell) + offsetof(CellInput, newmark);
+
 /// What every input has.
 template <class Input>
 std::vector<Offer> all_offers()
 {
   auto out = offers(static_cast<const Input*>(nullptr));
-  const std::size_t at = offsetof(Input, newmark);
+  const std::size_t at = newmark_at<Input>;
   out.push_back({"a_0", at + offsetof(NewmarkInput, a_0), 6});
   out.push_back({"a_n", at + offsetof(NewmarkInput, a_n), 6});
   out.push_back({"v_0", at + offsetof(NewmarkInput, v_0), 6});
@@ -79,7 +103,9 @@ const std::vector<Offer> constants{{"g", offsetof(Constants, g), 2},
                                    {"c_v", offsetof(Constants, c_v), 1},
                                    {"c_r", offsetof(Constants, c_r), 1},
                                    {"b", offsetof(Constants, b), 1},
-                                   {"spring", offsetof(Constants, spring), 1}};
+                                   {"spring", offsetof(Constants, spring), 1},
+                                   {"rho_f", offsetof(Constants, rho_f), 1},
+                                   {"end", offsetof(Constants, end), 1}};
 
 const Offer& find(std::span<const Offer> offers, std::string_view name,
                   std::string_view what)
@@ -141,6 +167,7 @@ void BasicKernel<Input>::operator()(std::span<double> A, const Input& input,
 }
 
 template class BasicKernel<CellInput>;
+template class BasicKernel<SeepageInput>;
 template class BasicKernel<PointInput<3>>;
 template class BasicKernel<PointInput<6>>;
 

@@ -35,6 +35,17 @@ struct CellInput
   NewmarkInput newmark;
 };
 
+/// What a cell with seepage offers, by the names in forms/seepage.py, besides
+/// those of CellInput.
+struct SeepageInput
+{
+  CellInput cell;
+  double p_w[3], p_w_n[3]; ///< end and start of the step
+  double stored[3], dstored_dp[3];
+  double compliance, mobility, share, radius;
+  double size[4];
+};
+
 /// What a cell of n points offers, by the names in forms/points.py.
 template <int n>
 struct PointInput
@@ -62,6 +73,8 @@ struct Constants
   double c_a = 0, c_v = 0, c_r = 0;
   double b = 0;
   double spring = 0;
+  double rho_f = 0;
+  double end = 1;
 };
 
 enum class IntegralKind

@@ -11,8 +11,9 @@ namespace mmale::lagrangian
 {
 MeanElement::MeanElement(const mesh::Domain& domain,
                          const material::AnyLaw& law, scene::Symmetry symmetry,
-                         const scene::Solver& options)
-    : Element(domain, law, symmetry, options, 1),
+                         const scene::Solver& options,
+                         const std::optional<scene::Water>& water)
+    : Element(domain, law, symmetry, options, water, 1),
       _R(_axisymmetric ? *form_balance_R_axi : *form_balance_R_plane,
          IntegralKind::cell),
       _J(_axisymmetric ? *form_balance_J_axi : *form_balance_J_plane,
@@ -33,6 +34,8 @@ MeanElement::MeanElement(const mesh::Domain& domain,
                 IntegralKind::cell}},
       _cell(domain.num_owned_cells)
 {
+  if (_flows)
+    make_flow(*water);
 }
 
 std::array<double, 2> MeanElement::mismatch_squared(const State& state,
@@ -51,12 +54,9 @@ double MeanElement::strain_squared(int c) const
          + cell.answer.theta * cell.answer.theta;
 }
 
-material::Effort MeanElement::effort() const
+material::Effort MeanElement::effort(int c) const
 {
-  material::Effort sum;
-  for (const Cell& cell : _cell)
-    sum += cell.answer.effort;
-  return sum;
+  return _cell[c].answer.effort;
 }
 
 void MeanElement::begin_step(const State& state, double dt)
@@ -64,6 +64,11 @@ void MeanElement::begin_step(const State& state, double dt)
   Element::begin_step(state, dt);
   for (Cell& cell : _cell)
     cell.guess = std::numeric_limits<double>::quiet_NaN();
+  for (int c = 0; _flow and c < _domain.num_owned_cells; ++c)
+  {
+    const auto [G, K] = moduli(state, c, dt);
+    _flow->compliance[c] = 1 / (K + 4 * G / 3);
+  }
 }
 
 /// Strain and pressure of a cell; what is wrong with it, or null.
@@ -98,7 +103,7 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
 {
   const auto kind = tangent_kind();
   std::vector<double> turned(_num_history);
-  const auto answer = [&](const auto& law, int c)
+  const auto answer = [&](const auto& medium, int c)
   {
     Cell& cell = _cell[c];
     const Motion& m = cell.motion;
@@ -107,10 +112,11 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
     std::copy_n(state.history.begin() + at, _num_history, turned.begin());
     turn_history(turned, m.cosine, m.sine);
     const material::Point start{
-        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine), state.P[c],
-        turned};
-    if (material::drive(law, start, m.de, cell.p, constants.dt, cell.guess,
-                        kind, q, cell.answer)
+        rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine),
+        driven_pressure(state, c), turned};
+    const double p_w = pore_pressure(c); // 0 but where it flows
+    if (material::drive(medium(p_w), start, m.de, cell.p - p_w, constants.dt,
+                        cell.guess, kind, q, cell.answer)
         != Outcome::ok)
       return "the law asks for a smaller step";
     turn_history(q, m.cosine, m.sine);
@@ -123,14 +129,14 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
     cell.s = rotate(cell.answer.s, m.cosine, m.sine);
     return static_cast<const char*>(nullptr);
   };
-  return std::visit(
-      [&](const auto& law)
+  return with_medium(
+      [&](const auto& medium)
       {
         for (int c = 0; c < _domain.num_owned_cells; ++c)
         {
           const char* trouble = strain_cell(state, c, z);
           if (not trouble)
-            trouble = answer(law, c);
+            trouble = answer(medium, c);
           if (trouble)
           {
             why = trouble;
@@ -138,8 +144,32 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
           }
         }
         return -1;
-      },
-      _law);
+      });
+}
+
+/// What a fluid's bubble remembers: the share of inertia in its stiffness. A
+/// viscous one moves at a velocity, against the total forces of the step's end;
+/// one of mass has an acceleration, which increments change.
+///
+/// @param[in] x corners, shape (3, 3)
+double MeanElement::inertia_share(int c, double rho, const double* x) const
+{
+  if (not _newmark)
+    return 0;
+  const double twice_area =
+      (x[3] - x[0]) * (x[7] - x[1]) - (x[6] - x[0]) * (x[4] - x[1]);
+  double gradients = 0; // sum over corners of |grad l|^2
+  for (int v = 0; v < 3; ++v)
+  {
+    const double *a = x + 3 * ((v + 1) % 3), *b = x + 3 * ((v + 2) % 3);
+    gradients += (std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2))
+                 / (twice_area * twice_area);
+  }
+  // of b = 27 l_0 l_1 l_2 on a triangle of area 1: the integral of b^2, and the
+  // mean eigenvalue of that of 2 dev eps(b) : eps(b)
+  const double mass = 27 * 27 / 2520.0, shape = 81 / 20.0 * 7 / 6 * gradients;
+  const double inertia = rho * _newmark->c_a * mass;
+  return inertia / (inertia + shape * _G[c]);
 }
 
 void MeanElement::gather(const State& state, int c, std::span<const double> z,
@@ -154,9 +184,9 @@ void MeanElement::gather(const State& state, int c, std::span<const double> z,
   in.theta = cell.answer.theta;
   in.ln_J = cell.motion.ln_J;
   in.mu = _G[c];
-  in.memory = _fluid ? 0 : 1;
+  in.rho = end_density(state, c);
+  in.memory = _fluid ? inertia_share(c, in.rho, x) : 1;
   in.lam = cell.answer.flow;
-  in.rho = state.density[c] * std::exp(-cell.motion.ln_J);
   if (_newmark)
     gather_newmark(state, c, in.newmark);
 }
@@ -259,6 +289,10 @@ void MeanElement::jacobian(const State& state, int c, std::span<const double> z,
     return;
   const Condensation K(A[9 * 11 + 9], A[9 * 11 + 10], A[10 * 11 + 9],
                        A[10 * 11 + 10]);
+  for (int i = 0; _flow and i < 9; ++i)
+    for (int b = 0; b < 2; ++b)
+      _flow->carried[2 * i + b] =
+          A[11 * i + 9] * K.inverse[b] + A[11 * i + 10] * K.inverse[2 + b];
   for (int j = 0; j < 9; ++j)
   {
     const auto [b0, b1] = K.solve(A[9 * 11 + j], A[10 * 11 + j]);

@@ -14,7 +14,8 @@ class MeanElement final : public Element
 {
 public:
   MeanElement(const mesh::Domain& domain, const material::AnyLaw& law,
-              scene::Symmetry symmetry, const scene::Solver& options);
+              scene::Symmetry symmetry, const scene::Solver& options,
+              const std::optional<scene::Water>& water);
 
   void begin_step(const State& state, double dt) override;
   int evaluate(const State& state, std::span<const double> z,
@@ -23,6 +24,11 @@ public:
                 const Constants& c, double* R) override;
   void jacobian(const State& state, int cell, std::span<const double> z,
                 const Constants& c, double* J) override;
+  FlowRow flow(const State& state, int cell, std::span<const double> z,
+               const Constants& c) override;
+  FlowTangent flow_tangent(const State& state, int cell,
+                           std::span<const double> z,
+                           const Constants& c) override;
   std::array<double, 6> forces(const State& state, int cell,
                                std::span<const double> z,
                                const Constants& c) const override;
@@ -33,7 +39,7 @@ public:
   std::array<double, 2> mismatch_squared(const State& state,
                                          int cell) const override;
   double strain_squared(int cell) const override;
-  material::Effort effort() const override;
+  material::Effort effort(int cell) const override;
 
 private:
   struct Cell
@@ -45,6 +51,16 @@ private:
     Voigt s;      ///< deviator at the end, turned
     double p;     ///< mean pressure at the end
   };
+  /// What seepage adds.
+  struct Flow
+  {
+    BasicKernel<SeepageInput> R, by_pore_pressure, by_nodes, of_momentum,
+        of_bubble, R_consistent, by_pore_pressure_consistent;
+    bool consistent;                ///< storage, not lumped
+    double mobility;                ///< [m2/(Pa s)]
+    std::vector<double> compliance; ///< of the cells in this step [1/Pa]
+    double carried[18];             ///< K_nb K_bb^-1 of the last jacobian
+  };
   /// The kernels that dynamics adds.
   struct Inertia
   {
@@ -55,14 +71,21 @@ private:
                           std::span<const double> z);
   void gather(const State& state, int cell, std::span<const double> z,
               CellInput& in, double* x) const;
+  double inertia_share(int cell, double rho, const double* x) const;
   void add_tangent(int cell, CellInput& in) const;
   void use_cell_pressure(int cell, CellInput& in) const;
   void project_pressure(int cell, const CellInput& in, double* R,
                         double* J) const;
   double cell_pressure(int cell) const;
+  void make_flow(const scene::Water& water);
+  void gather_flow(const State& state, int cell, std::span<const double> z,
+                   SeepageInput& in, double* x) const;
+  void measure_flow(int cell, const SeepageInput& in, const double* x,
+                    const Constants& c, FlowRow& row) const;
 
   Kernel _R, _J, _B;
   Inertia _inertia;
+  std::unique_ptr<Flow> _flow; ///< with seepage
   std::vector<Cell> _cell;
 };
 } // namespace mmale::lagrangian

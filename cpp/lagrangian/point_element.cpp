@@ -46,8 +46,9 @@ template <int n>
 PointElement<n>::PointElement(const mesh::Domain& domain,
                               const material::AnyLaw& law,
                               scene::Symmetry symmetry,
-                              const scene::Solver& options)
-    : Element(domain, law, symmetry, options, n),
+                              const scene::Solver& options,
+                              const std::optional<scene::Water>& water)
+    : Element(domain, law, symmetry, options, water, n),
       _R(Forms<n>::R(_axisymmetric), IntegralKind::cell),
       _J(Forms<n>::J(_axisymmetric), IntegralKind::cell),
       _R_damping(_axisymmetric ? *form_inertia_R_damping_axi
@@ -61,12 +62,11 @@ PointElement<n>::PointElement(const mesh::Domain& domain,
 }
 
 template <int n>
-material::Effort PointElement<n>::effort() const
+material::Effort PointElement<n>::effort(int c) const
 {
   material::Effort sum;
-  for (const Cell& cell : _cell)
-    for (const Point& point : cell.point)
-      sum += point.answer.effort;
+  for (const Point& point : _cell[c].point)
+    sum += point.answer.effort;
   return sum;
 }
 
@@ -164,7 +164,7 @@ const char* PointElement<n>::answer(const State& state, int c,
     return trouble;
   const auto kind = tangent_kind();
   std::vector<double> turned(_num_history);
-  const auto update = [&](const auto& law)
+  const auto update = [&](const auto& medium)
   {
     for (int q = n * c; q < n * (c + 1); ++q)
     {
@@ -177,8 +177,8 @@ const char* PointElement<n>::answer(const State& state, int c,
       const material::Point start{
           rotate(Voigt(state.s.data() + 4 * q), m.cosine, m.sine), state.P[q],
           turned};
-      if (material::drive(law, start, m.de, point.p, dt, point.guess, kind,
-                          history, point.answer)
+      if (material::drive(medium(0), start, m.de, point.p, dt, point.guess,
+                          kind, history, point.answer)
           != Outcome::ok)
         return "the law asks for a smaller step";
       turn_history(history, m.cosine, m.sine);
@@ -187,7 +187,7 @@ const char* PointElement<n>::answer(const State& state, int c,
     }
     return static_cast<const char*>(nullptr);
   };
-  return std::visit(update, _law);
+  return with_medium(update);
 }
 
 /// The bubble's own equation, by Newton; what is wrong, or null.
@@ -250,7 +250,7 @@ void PointElement<n>::gather(const State& state, int c,
     in.excess[q] = point.answer.theta - point.motion.ln_J;
   }
   in.mu = _G[c];
-  in.rho = state.density[c] * std::exp(-cell.ln_J);
+  in.rho = end_density(state, c);
   if (_newmark)
     gather_newmark(state, c, in.newmark);
 }

@@ -22,7 +22,8 @@ class PointElement final : public Element
 {
 public:
   PointElement(const mesh::Domain& domain, const material::AnyLaw& law,
-               scene::Symmetry symmetry, const scene::Solver& options);
+               scene::Symmetry symmetry, const scene::Solver& options,
+               const std::optional<scene::Water>& water);
 
   void begin_step(const State& state, double dt) override;
   void begin_iteration(std::span<const double> z) override;
@@ -42,7 +43,7 @@ public:
   std::array<double, 2> mismatch_squared(const State& state,
                                          int cell) const override;
   double strain_squared(int cell) const override;
-  material::Effort effort() const override;
+  material::Effort effort(int cell) const override;
 
 private:
   /// Of a bubble's equation; elastic cells take one. Doubled: nothing.

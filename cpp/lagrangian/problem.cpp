@@ -31,13 +31,18 @@ node_map(const mesh::Domain& domain)
 
 Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
                  scene::Symmetry symmetry, const scene::Solver& options,
-                 output::Clock& clock)
+                 const std::optional<scene::Water>& water, output::Clock& clock)
     : _domain(domain), _symmetry(symmetry), _options(options), _clock(clock),
-      _element(make_element(domain, law, symmetry, options)),
+      _element(make_element(domain, law, symmetry, options, water)),
       _loads(domain, symmetry), _length(mean_edge(domain)),
       _increment(3 * domain.num_nodes(), 0), _z(node_map(domain), 3),
       _force(node_map(domain), 3)
 {
+  if (not water or not water->seepage())
+    return;
+  _block = 4;
+  _pore_pressure = std::make_unique<PorePressure>(domain, symmetry, *water);
+  _element->set_pore_pressure(_pore_pressure.get());
 }
 
 Problem::~Problem()
@@ -49,7 +54,7 @@ Problem::~Problem()
   VecDestroy(&_unlifted);
 }
 
-void Problem::set_scales(const State& state, double dt)
+material::Moduli Problem::moduli(const State& state, double dt) const
 {
   double sum[3] = {0, 0, static_cast<double>(_domain.num_owned_cells)};
   for (int c = 0; c < _domain.num_owned_cells; ++c)
@@ -59,21 +64,38 @@ void Problem::set_scales(const State& state, double dt)
     sum[1] += K;
   }
   MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, _domain.comm);
-  _stress = sum[0] / sum[2];
-  _bulk = sum[1] / sum[2];
+  return {sum[0] / sum[2], sum[1] / sum[2]};
+}
+
+void Problem::set_scales(const State& state, double dt)
+{
+  const auto [G, K] = moduli(state, dt);
+  _stress = G;
+  _bulk = K;
+  if (not _newmark or not _element->fluid())
+    return;
+  // what resists in a fluid is its mass; G alone would be a unit so small that
+  // the matrix is singular to the last digit
+  double sum[2] = {0, static_cast<double>(_domain.num_owned_cells)};
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    sum[0] += state.density[c];
+  MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  _stress += sum[0] / sum[1] * _length * _length / (dt * dt);
 }
 
 /// Of a cell as it was when the step began.
 std::array<double, 2> Problem::impedance(int c) const
 {
-  const auto [G, K] = _element->moduli(*_state, c, _constants.dt);
+  const auto [G, K] = _element->moduli(*_state, c, _constants.dt, true);
   const double rho = _state->density[c];
   return {std::sqrt(rho * (K + 4 * G / 3)), std::sqrt(rho * G)};
 }
 
 material::Effort Problem::effort() const
 {
-  const material::Effort e = _element->effort();
+  material::Effort e;
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+    e += _element->effort(c);
   std::array<long, 4> sum{e.substeps, e.rejected, e.apex, e.clipped};
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 4, MPI_LONG, MPI_SUM, _domain.comm);
   return {sum[0], sum[1], sum[2], sum[3]};
@@ -81,7 +103,6 @@ material::Effort Problem::effort() const
 
 void Problem::set_stage(const scene::Stage& stage, const State& state)
 {
-  set_scales(state, stage.step);
   _conditions.emplace(_domain, stage);
   _contact.emplace(_domain, *_conditions);
   _holder.assign(_conditions->holder().begin(), _conditions->holder().end());
@@ -89,7 +110,10 @@ void Problem::set_stage(const scene::Stage& stage, const State& state)
   _newmark.reset();
   if (stage.dynamics)
     _newmark.emplace(_domain, _symmetry, stage.dynamics->resolved());
+  set_scales(state, stage.step);
   _element->set_newmark(_newmark ? &*_newmark : nullptr);
+  if (_pore_pressure)
+    _pore_pressure->set_stage(stage);
   choose_solver();
 }
 
@@ -99,10 +123,18 @@ void Problem::unpack(Vec x)
   VecGetArrayRead(x, &from);
   auto z = _z.mutable_array();
   const double pressure = _stress / _length;
-  for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
-    z[i] = i % 3 == 2 ? from[i] * pressure : from[i];
+  for (int n = 0; n < _domain.num_owned_nodes; ++n)
+  {
+    const PetscScalar* of_node = from + _block * static_cast<std::ptrdiff_t>(n);
+    std::copy_n(of_node, 2, z.begin() + 3 * n);
+    z[3 * n + 2] = of_node[2] * pressure;
+    if (_pore_pressure)
+      _pore_pressure->trial()[n] = of_node[3] * pressure;
+  }
   VecRestoreArrayRead(x, &from);
   _z.scatter_fwd();
+  if (_pore_pressure)
+    _pore_pressure->send_trial();
 }
 
 void Problem::agree_on_failure(int cell, const std::string& why)
@@ -145,12 +177,14 @@ void Problem::assemble_residual(double* r)
   const auto z = _z.array();
   auto force = _force.mutable_array();
   std::ranges::fill(force, 0.0);
-  double size[3] = {0, 0, 0}; // squares: cell forces, strains, held increments
+  // squares: cell forces, strains, held increments, flows
+  double size[4] = {0, 0, 0, 0};
   // what last digits come to, as large as they may weigh: strains of the
-  // pressure at rest, and of the displacement in flight
+  // pressure at rest, by which the bubble moves too, and of the displacement in
+  // flight
   const double last_digits =
       4 * std::numeric_limits<double>::epsilon() / _options.tolerance;
-  const double of_p = last_digits / _bulk;
+  const double of_p = last_digits / std::min(_bulk, _stress);
   const double of_u = _newmark ? last_digits / _length : 0;
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
@@ -177,6 +211,8 @@ void Problem::assemble_residual(double* r)
   _force.scatter_rev(std::plus<double>());
   if (_newmark)
     add_inertia(force, size[0]);
+  if (_pore_pressure)
+    assemble_flow(size);
   if (not _contact->empty() and _contact_changes < max_contact_changes
       and _contact->update(_state->x, z, force, _stress))
   {
@@ -184,28 +220,87 @@ void Problem::assemble_residual(double* r)
     hold();
   }
 
-  double norm[3] = {0, 0, 0};
+  double norm[4] = {0, 0, 0, 0};
   const double weight = _newmark ? _newmark->weight() : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
   {
     const bool pressure = i % 3 == 2;
-    r[i] = pressure ? weight * force[i] / _length : force[i] / _stress;
+    double& row = r[_block * (i / 3) + i % 3];
+    row = pressure ? weight * force[i] / _length : force[i] / _stress;
     if (_holder[i] >= 0)
     {
-      r[i] = z[i] - _increment[i];
-      norm[2] += r[i] * r[i];
+      row = z[i] - _increment[i];
+      norm[2] += row * row;
       size[2] += _increment[i] * _increment[i];
     }
     else
       norm[pressure ? 1 : 0] += force[i] * force[i];
   }
-  double all[6] = {norm[0], norm[1], norm[2], size[0], size[1], size[2]};
-  MPI_Allreduce(MPI_IN_PLACE, all, 6, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  for (int n = 0; _pore_pressure and n < _domain.num_owned_nodes; ++n)
+  {
+    const PorePressure& water = *_pore_pressure;
+    double& row = r[4 * n + 3];
+    row = water.residual()[n] / _length;
+    if (water.holder()[n] >= 0)
+    {
+      const double unit = _length / _stress;
+      row = unit * (water.trial()[n] - water.prescribed(n));
+      norm[2] += row * row;
+      size[2] += std::pow(unit * water.prescribed(n), 2);
+    }
+    else
+      norm[3] += std::pow(water.residual()[n], 2);
+  }
+  std::array<double, 8> all;
+  std::copy_n(norm, 4, all.begin());
+  std::copy_n(size, 4, all.begin() + 4);
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), 8, MPI_DOUBLE, MPI_SUM, _domain.comm);
   const double tiny = 1e-16 * _length * _stress;
-  _norm_u = std::sqrt(all[0] / (all[3] + tiny * tiny));
-  _norm_p = std::sqrt(all[1] / all[4]);
+  _norm_u = std::sqrt(all[0] / (all[4] + tiny * tiny));
+  _norm_p = std::sqrt(all[1] / all[5]);
   _norm_bc =
-      all[2] > 0 ? std::sqrt(all[2] / (all[5] + 1e-32 * _length * _length)) : 0;
+      all[2] > 0 ? std::sqrt(all[2] / (all[6] + 1e-32 * _length * _length)) : 0;
+  _norm_w = _pore_pressure ? std::sqrt(all[3] / (all[5] + all[7])) : 0;
+}
+
+/// Rows of the pore pressure; `size` has its fourth number from them.
+void Problem::assemble_flow(double* size)
+{
+  auto rows = _pore_pressure->residual();
+  std::ranges::fill(rows, 0.0);
+  const double last_digits =
+      4 * std::numeric_limits<double>::epsilon() / _options.tolerance;
+  for (int c = 0; c < _domain.num_owned_cells; ++c)
+  {
+    const FlowRow row = _element->flow(*_state, c, _z.array(), _constants);
+    for (int v = 0; v < 3; ++v)
+      rows[_domain.cells[c][v]] += row.R[v];
+    size[3] +=
+        row.size_squared + last_digits * last_digits * row.digits_squared;
+  }
+  _pore_pressure->gather_residual();
+}
+
+/// Newton again and again while nodes of seepage faces are held or let go, from
+/// where the last one ended. (In its midst, as contact does it, a row that
+/// changes from a flow to a pressure stalls the line search.)
+bool Problem::settle_faces(NewtonLog& log)
+{
+  for (int round = 0; _pore_pressure->update(); ++round)
+  {
+    if (round == max_contact_changes)
+    {
+      const int node = _pore_pressure->unsettled();
+      agree_on_failure(node < 0 ? -1 : cell_at(node),
+                       "a seepage face did not settle");
+      log.failure = _failure;
+      return false;
+    }
+    hold();
+    if (not newton(log))
+      return false;
+  }
+  return true;
 }
 
 /// A local cell at a local node.
@@ -258,6 +353,11 @@ void Problem::prepare(const State& state, double t0, double t1)
   _constants = {};
   _constants.dt = t1 - t0;
   _constants.spring = _options.bubble_spring;
+  if (_pore_pressure)
+  {
+    _constants.rho_f = _pore_pressure->water().density;
+    _constants.end = _pore_pressure->water().time_weight;
+  }
   std::ranges::copy(g, _constants.g);
   std::ranges::copy(t0 > 0 ? _conditions->gravity(t0) : _gravity,
                     _constants.g_n);
@@ -293,15 +393,23 @@ void Problem::start(Start from)
   PetscScalar* x = nullptr;
   VecGetArray(_x, &x);
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
+  {
+    PetscScalar& value = x[_block * (i / 3) + i % 3];
     if (i % 3 == 2)
-      x[i] = _state->p[i / 3] * _length / _stress;
+      value = _state->p[i / 3] * _length / _stress;
     else if (from == Start::rest)
-      x[i] = 0;
+      value = 0;
     else if (_holder[i] >= 0)
-      x[i] = _increment[i];
+      value = _increment[i];
     else
-      x[i] = _newmark ? _newmark->foreseen(*_state, 2 * (i / 3) + i % 3)
-                      : _motion[2 * (i / 3) + i % 3] * dt / _guess_dt;
+      value = _newmark ? _newmark->foreseen(*_state, 2 * (i / 3) + i % 3)
+                       : _motion[2 * (i / 3) + i % 3] * dt / _guess_dt;
+  }
+  for (int n = 0; _pore_pressure and n < _domain.num_owned_nodes; ++n)
+    x[4 * n + 3] =
+        (_pore_pressure->holder()[n] >= 0 ? _pore_pressure->prescribed(n)
+                                          : _state->p_w[n])
+        * _length / _stress;
   VecRestoreArray(_x, &x);
 }
 
@@ -329,9 +437,13 @@ bool Problem::equilibrium(Start from, NewtonLog& log)
 {
   _contact->begin_step(_state->x, _t0, _t1);
   _contact_changes = 0;
+  if (_pore_pressure)
+    _pore_pressure->begin(_state->p_w, _t1, _t1 - _t0, _length);
   hold();
   start(from);
   if (not newton(log))
+    return false;
+  if (_pore_pressure and _pore_pressure->has_face() and not settle_faces(log))
     return false;
   if (_contact->empty()
       or not _contact->update(_state->x, _z.array(), _force.array(), _stress))
@@ -356,6 +468,8 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
   if (_newmark)
     book_work(state, inner_forces());
   _element->accept(state, _z.array(), t1 - t0);
+  if (_pore_pressure)
+    std::ranges::copy(_pore_pressure->trial(), state.p_w.begin());
   if (_newmark)
     finish_newmark(state);
   _motion.resize(2 * static_cast<std::size_t>(_domain.num_nodes()));
@@ -364,6 +478,41 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
   _guess_dt = t1 - t0;
   std::copy_n(_constants.g, 2, _gravity.begin());
   return true;
+}
+
+double Problem::imbalance(const State& state, double dt)
+{
+  prepare(state, 0, dt);
+  _contact->begin_step(state.x, _t0, _t1);
+  hold();
+  auto z = _z.mutable_array();
+  for (int i = 0; i < 3 * _domain.num_nodes(); ++i)
+    z[i] = i % 3 == 2 ? state.p[i / 3] : 0;
+  if (_pore_pressure)
+  {
+    _pore_pressure->begin(state.p_w, _t1, dt, _length);
+    std::ranges::copy(state.p_w, _pore_pressure->trial().begin());
+  }
+  _element->begin_step(state, dt);
+  if (not evaluate())
+    throw std::runtime_error("the initial state fails: " + _failure.cause
+                             + ", cell " + std::to_string(_failure.cell));
+  std::vector<double> r(static_cast<std::size_t>(_block)
+                        * _domain.num_owned_nodes);
+  assemble_residual(r.data());
+  const auto mass = mesh::lump(_domain, state.x, state.density,
+                               _symmetry == scene::Symmetry::axisymmetric);
+  double worst = 0, weight = 0;
+  for (int n = 0; n < _domain.num_owned_nodes; ++n)
+  {
+    weight += mass[n] * std::hypot(_constants.g[0], _constants.g[1]);
+    for (int d = 0; d < 2; ++d)
+      if (_holder[3 * n + d] < 0)
+        worst = std::max(worst, std::abs(_force.array()[3 * n + d]));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, _domain.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &weight, 1, MPI_DOUBLE, MPI_SUM, _domain.comm);
+  return weight > 0 ? worst / weight : _norm_u;
 }
 
 void Problem::keep(output::Archive& archive)
@@ -391,6 +540,11 @@ std::vector<std::array<double, 2>> Problem::reactions() const
   for (std::size_t b = 0; b < out.size(); ++b)
     out[b] = {sum[2 * b], sum[2 * b + 1]};
   return out;
+}
+
+std::vector<double> Problem::discharge() const
+{
+  return _pore_pressure ? _pore_pressure->discharge() : std::vector<double>();
 }
 
 std::array<double, 2> Problem::mismatch(const State& state) const

@@ -43,7 +43,7 @@ class Problem
 public:
   Problem(const mesh::Domain& domain, const material::AnyLaw& law,
           scene::Symmetry symmetry, const scene::Solver& options,
-          output::Clock& clock);
+          const std::optional<scene::Water>& water, output::Clock& clock);
   ~Problem();
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
@@ -60,6 +60,15 @@ public:
   /// @param[in] t from the start of the stage [s]
   void rebalance(State& state, double t);
 
+  /// The body was under the stage's gravity before the stage began.
+  void rest_under_gravity() { _gravity = _conditions->gravity(0); }
+
+  /// Largest force on a node that is free to move, were the body at rest when
+  /// the stage begins, over its weight; without gravity over the norm of the
+  /// cells' own forces. Collective.
+  /// @param[in] dt of the step that the laws are asked for [s]
+  double imbalance(const State& state, double dt);
+
   /// Kinetic energy, if the state's velocity is one [J/m or J/rad]. Collective.
   double kinetic_energy(const State& state) const;
 
@@ -73,6 +82,10 @@ public:
   /// of the whole circumference [N/m or N]. Of the last solve. Collective.
   std::vector<std::array<double, 2>> reactions() const;
 
+  /// Water that left through each named boundary in the last step, over its
+  /// length; none without seepage. Collective.
+  std::vector<double> discharge() const;
+
   /// RMS over the cells of (P - p) and of (theta - ln J). Collective.
   std::array<double, 2> mismatch(const State& state) const;
 
@@ -81,6 +94,9 @@ public:
   std::span<const double> motion() const { return _motion; }
 
   const Element& element() const { return *_element; }
+
+  /// Mean moduli of all cells [Pa]. Collective.
+  material::Moduli moduli(const State& state, double dt) const;
 
   /// What the laws took in the last step. Collective.
   material::Effort effort() const;
@@ -108,12 +124,15 @@ private:
   std::array<double, 2> impedance(int cell) const;
   void choose_solver();
   void scale(int cell, double* A);
+  void add_flow(int cell, const double* A9, double* A12);
   void lift(Vec b);
   void create_matrix();
   void create_solver();
   void unpack(Vec x);
   bool evaluate();
   void assemble_residual(double* r);
+  void assemble_flow(double* size);
+  bool settle_faces(NewtonLog& log);
   void add_inertia(std::span<double> force, double& size);
   std::vector<double> inner_forces();
   void begin_newmark(const State& state);
@@ -152,11 +171,15 @@ private:
   double _bulk = 1;   ///< their mean bulk modulus [Pa]
   double _length;     ///< scale [m]
 
+  int _block = 3; ///< unknowns of a node in PETSc's vectors: ux, uy, p, and p_w
+                  ///< with seepage; all else keeps p_w apart
+  std::unique_ptr<PorePressure> _pore_pressure; ///< with seepage
+
   std::optional<Conditions> _conditions;
   std::optional<Contact> _contact;
   std::optional<Newmark> _newmark; ///< in dynamic stages
   std::vector<double> _total;      ///< force less inertia, owned, shape (n, 2)
-  int _contact_changes = 0;        ///< in this step
+  int _contact_changes = 0;        ///< in this step, of seepage faces too
   double _t0 = 0, _t1 = 0;         ///< of this step
   std::vector<int> _holder;        ///< owned and ghost unknowns
   std::vector<double> _increment;  ///< of held unknowns
@@ -169,8 +192,9 @@ private:
   dolfinx::la::Vector<double> _z;     ///< unknowns with units
   dolfinx::la::Vector<double> _force; ///< residual with units
   std::vector<double> _coo;
-  std::vector<Lift> _lift;                       ///< of the matrix in use
-  double _norm_u = 0, _norm_p = 0, _norm_bc = 0; ///< relative residuals
+  std::vector<Lift> _lift; ///< of the matrix in use
+  double _norm_u = 0, _norm_p = 0, _norm_bc = 0,
+         _norm_w = 0; ///< relative residuals
   Failure _failure;
   bool _failed = false;
   NewtonLog* _log = nullptr; ///< of the Newton run that goes on

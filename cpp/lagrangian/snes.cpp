@@ -29,11 +29,12 @@ void Problem::choose_solver()
 void Problem::create_matrix()
 {
   const auto& map = _domain.nodes();
-  const PetscInt rows = 3 * _domain.num_owned_nodes;
+  const int b = _block, unknowns = 3 * b; // of a node, of a cell
+  const PetscInt rows = b * _domain.num_owned_nodes;
   MatCreate(_domain.comm, &_J);
   MatSetSizes(_J, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE);
   MatSetType(_J, MATAIJ);
-  MatSetBlockSize(_J, 3);
+  MatSetBlockSize(_J, b);
 
   std::vector<std::int64_t> global(_domain.num_nodes());
   std::vector<std::int32_t> local(_domain.num_nodes());
@@ -42,21 +43,22 @@ void Problem::create_matrix()
   map.local_to_global(local, global);
   std::vector<PetscInt> row, column;
   const std::size_t entries =
-      81 * static_cast<std::size_t>(_domain.num_owned_cells) + rows;
+      static_cast<std::size_t>(unknowns) * unknowns * _domain.num_owned_cells
+      + rows;
   row.reserve(entries);
   column.reserve(entries);
   for (int c = 0; c < _domain.num_owned_cells; ++c)
-    for (int i = 0; i < 9; ++i)
-      for (int j = 0; j < 9; ++j)
+    for (int i = 0; i < unknowns; ++i)
+      for (int j = 0; j < unknowns; ++j)
       {
         const auto& nodes = _domain.cells[c];
-        row.push_back(static_cast<PetscInt>(3 * global[nodes[i / 3]] + i % 3));
+        row.push_back(static_cast<PetscInt>(b * global[nodes[i / b]] + i % b));
         column.push_back(
-            static_cast<PetscInt>(3 * global[nodes[j / 3]] + j % 3));
+            static_cast<PetscInt>(b * global[nodes[j / b]] + j % b));
       }
   for (PetscInt i = 0; i < rows; ++i)
   {
-    row.push_back(static_cast<PetscInt>(3 * global[i / 3] + i % 3));
+    row.push_back(static_cast<PetscInt>(b * global[i / b] + i % b));
     column.push_back(row.back());
   }
   MatSetPreallocationCOO(_J, static_cast<PetscCount>(row.size()), row.data(),
@@ -101,15 +103,21 @@ void Problem::create_solver()
   PCSetType(pc, _symmetric ? PCCHOLESKY : PCLU);
   PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
   // The system is scaled by its units already: MUMPS's own scaling and its
-  // search for a large diagonal cost more than they give.
-  for (const char* option :
-       {"-lagrangian_mat_mumps_icntl_6", "-lagrangian_mat_mumps_icntl_8"})
-  {
-    PetscBool given = PETSC_FALSE;
-    PetscOptionsHasName(nullptr, nullptr, option, &given);
-    if (not given)
-      PetscOptionsSetValue(nullptr, option, "0");
-  }
+  // search for a large diagonal cost more than they give. But viscosities may
+  // differ by many decades from cell to cell, and then it takes pivots for
+  // zeros (Bingham with a plug 1e5 times as viscous as what flows).
+  static bool ours = false; // what an earlier solver has set, not the user
+  PetscBool given = PETSC_FALSE;
+  PetscOptionsHasName(nullptr, nullptr, "-lagrangian_mat_mumps_icntl_8",
+                      &given);
+  if (ours or not given)
+    PetscOptionsSetValue(nullptr, "-lagrangian_mat_mumps_icntl_8",
+                         _element->fluid() ? "77" : "0");
+  ours = ours or not given;
+  PetscOptionsHasName(nullptr, nullptr, "-lagrangian_mat_mumps_icntl_6",
+                      &given);
+  if (not given)
+    PetscOptionsSetValue(nullptr, "-lagrangian_mat_mumps_icntl_6", "0");
   if (not _options.petsc.empty())
     PetscOptionsInsertString(nullptr, _options.petsc.c_str());
   SNESSetFromOptions(_snes);
@@ -126,7 +134,7 @@ PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
   if (self.evaluate())
     self.assemble_residual(out);
   else // a norm that no line search accepts
-    std::fill_n(out, 3 * self._domain.num_owned_nodes,
+    std::fill_n(out, self._block * self._domain.num_owned_nodes,
                 std::numeric_limits<double>::quiet_NaN());
   PetscCall(VecRestoreArray(r, &out));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -165,6 +173,41 @@ void Problem::scale(int cell, double* A)
   }
 }
 
+/// The cell's tangent with seepage: what is scaled already, and the blocks of
+/// the pore pressure.
+///
+/// @param[in]  A9  of u and p, scaled, shape (9, 9)
+/// @param[out] A12 shape (12, 12)
+void Problem::add_flow(int c, const double* A9, double* A12)
+{
+  const FlowTangent flow =
+      _element->flow_tangent(*_state, c, _z.array(), _constants);
+  const auto& nodes = _domain.cells[c];
+  const double weight = _newmark ? _newmark->weight() : 1;
+  const double row[2] = {weight / _stress, weight / _length};
+  const double column[2] = {1, _stress / _length};
+  const auto at = [](int i) { return 4 * (i / 3) + i % 3; };
+  for (int i = 0; i < 9; ++i)
+  {
+    const bool held = _holder[3 * nodes[i / 3] + i % 3] >= 0;
+    for (int j = 0; j < 9; ++j)
+      A12[12 * at(i) + at(j)] = A9[9 * i + j];
+    for (int j = 0; j < 3; ++j)
+      A12[12 * at(i) + 4 * j + 3] =
+          held ? 0 : flow.momentum[3 * i + j] * row[i % 3 == 2] * column[1];
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const double unit =
+        _pore_pressure->holder()[nodes[i]] >= 0 ? 0 : 1 / _length;
+    double* to = A12 + 12 * (4 * i + 3);
+    for (int j = 0; j < 9; ++j)
+      to[at(j)] = unit * flow.by_nodes[9 * i + j] * column[j % 3 == 2];
+    for (int j = 0; j < 3; ++j)
+      to[4 * j + 3] = unit * flow.by_pore_pressure[3 * i + j] * column[1];
+  }
+}
+
 /// Take what held unknowns still have to move to the right-hand side.
 void Problem::lift(Vec b)
 {
@@ -189,26 +232,37 @@ PetscErrorCode Problem::jacobian(SNES, Vec, Mat J, Mat, void* context)
   const auto& d = self._domain;
   self._held_anew = false;
   self._lift.clear();
+  const int b = self._block;
+  const std::size_t entries = 9 * static_cast<std::size_t>(b) * b;
   for (int c = 0; c < d.num_owned_cells; ++c)
   {
-    double* A = self._coo.data() + 81 * static_cast<std::size_t>(c);
+    double alone[81]; // with seepage a block of the cell's
+    double* block = self._coo.data() + entries * c;
+    double* A = self._pore_pressure ? alone : block;
     self._element->jacobian(*self._state, c, self._z.array(), self._constants,
                             A);
     self._loads.add_jacobian(*self._state, c, self._z.array(), A);
     self.scale(c, A);
+    if (self._pore_pressure)
+      self.add_flow(c, A, block);
   }
-  double* diagonal =
-      self._coo.data() + 81 * static_cast<std::size_t>(d.num_owned_cells);
-  for (int i = 0; i < 3 * d.num_owned_nodes; ++i)
-    diagonal[i] = self._holder[i] >= 0 ? 1 : 0;
+  double* diagonal = self._coo.data() + entries * d.num_owned_cells;
+  for (int n = 0; n < d.num_owned_nodes; ++n)
+  {
+    for (int i = 0; i < 3; ++i)
+      diagonal[b * n + i] = self._holder[3 * n + i] >= 0 ? 1 : 0;
+    if (self._pore_pressure)
+      diagonal[b * n + 3] = self._pore_pressure->holder()[n] >= 0 ? 1 : 0;
+  }
   for (int n = 0; self._newmark and n < d.num_owned_nodes; ++n)
-    for (int i = 3 * n; i < 3 * n + 2; ++i)
-      if (self._holder[i] < 0)
+    for (int i = 0; i < 2; ++i)
+      if (self._holder[3 * n + i] < 0)
       {
         const Newmark& m = *self._newmark;
         const double weight = m.weight();
-        diagonal[i] = m.mass(n) / self._stress
-                      * (m.c_a + weight * m.scheme().damping_mass * m.c_v);
+        diagonal[b * n + i] =
+            m.mass(n) / self._stress
+            * (m.c_a + weight * m.scheme().damping_mass * m.c_v);
       }
   PetscCall(MatSetValuesCOO(J, self._coo.data(), INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -270,7 +324,9 @@ PetscErrorCode Problem::precheck(SNESLineSearch, Vec, Vec y, PetscBool* changed,
   dolfinx::la::Vector<double> step(d.space->dofmap()->index_map, 3);
   const PetscScalar* from = nullptr;
   PetscCall(VecGetArrayRead(y, &from));
-  std::copy_n(from, 3 * d.num_owned_nodes, step.mutable_array().begin());
+  for (int n = 0; n < d.num_owned_nodes; ++n)
+    std::copy_n(from + self._block * static_cast<std::ptrdiff_t>(n), 3,
+                step.mutable_array().begin() + 3 * n);
   PetscCall(VecRestoreArrayRead(y, &from));
   step.scatter_fwd();
   const auto z = self._z.array();
@@ -317,10 +373,11 @@ PetscErrorCode Problem::converged(SNES, PetscInt it, PetscReal, PetscReal,
   *reason = SNES_CONVERGED_ITERATING;
   if (not std::isfinite(fnorm))
     *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol)
+  else if (self._norm_u <= tol and self._norm_p <= tol and self._norm_bc <= tol
+           and self._norm_w <= tol)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
   self._log->residuals.push_back(
-      std::max({self._norm_u, self._norm_p, self._norm_bc}));
+      std::max({self._norm_u, self._norm_p, self._norm_bc, self._norm_w}));
   (void)it;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -79,6 +79,15 @@ private:
   int _steps = 0;
 };
 
+/// What can be driven: a law, or one with water in its pores (`water.h`).
+template <class L>
+concept StrainDriven =
+    requires(const L law, const Point& start, const Strain& step,
+             TangentKind kind, std::span<double> q, Response& answer) {
+      { law.update(start, step, kind, q, answer) } -> std::same_as<Outcome>;
+      { law.moduli(start, step.dt) } -> std::same_as<Moduli>;
+    };
+
 /// Ask a law by pressure.
 ///
 /// @param[in]     p     at the end of the step [Pa]
@@ -86,17 +95,20 @@ private:
 /// @param[out]    q     history at the end
 /// @param[out]    answer
 /// @return reduce_step if the law asks for it, or has no such pressure
-template <MaterialLaw L>
+template <StrainDriven L>
 Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
               double dt, double guess, TangentKind kind, std::span<double> q,
               Driven& answer)
 {
   constexpr int max_evaluations = LinearPressure<L> ? 1 : 40;
-  // p has been summed from numbers of this size
+  const auto [G, K] = law.moduli(start, dt);
+  // p has been summed from numbers of this size; without stress, as sand at a
+  // free surface is, from those of the elastic trial
   const double tolerance =
-      1e-13 * (std::abs(p) + std::abs(start.p) + norm(start.s));
+      1e-13 * (std::abs(p) + std::abs(start.p) + norm(start.s))
+      + 1e-15 * 2 * G * norm(de);
   if (LinearPressure<L> or std::isnan(guess))
-    guess = -(p - start.p) / law.moduli(start, dt).K;
+    guess = -(p - start.p) / K;
   FallingRoot theta(guess);
   Response r;
   answer.effort = {};
@@ -110,9 +122,13 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
     }
     answer.effort += r.effort;
     const double excess = r.p - p;
-    const double digits = std::abs(r.dp_dtheta * theta.x()) * 1e-15;
+    // and a law for whole tensors adds de and theta up again
+    const double digits = (std::abs(r.dp_dtheta) + K)
+                          * (std::abs(theta.x()) + de.norm()) * 2e-15;
     if (LinearPressure<L> or std::abs(excess) <= tolerance + digits)
     {
+      if (not(r.dp_dtheta < 0)) // against the contract, as a umat may be
+        return Outcome::reduce_step;
       answer.s = r.s;
       answer.theta = theta.x();
       answer.flow = r.flow;

@@ -114,6 +114,8 @@ End bring_down(const Track& track, double gap, const Tensor& gap_D)
   return out;
 }
 
+/// No plastic flow for the bubble: in ground the gradient of p is in balance
+/// with that of the deviator too, so its total must not drive a bubble.
 void give(const End& end, Response& answer)
 {
   const auto engineering = [](Tensor x)
@@ -179,9 +181,10 @@ const std::array<TextParameter<H>, 2> H::texts{{
 
 std::vector<HistoryField> H::history() const
 {
-  std::vector<HistoryField> fields{{"void_ratio"}};
+  std::vector<HistoryField> fields{
+      {"void_ratio", 1, Conserved::grain_volume}};
   if (with_grains())
-    fields.push_back({"intergranular_strain", 4});
+    fields.push_back({"intergranular_strain", 4, Conserved::value});
   return fields;
 }
 

@@ -95,12 +95,21 @@ struct Moduli
   double K; ///< above 0
 };
 
+/// What a remap keeps of a number of the history: its integral over the
+/// volume, or that of the grains' share, 1 / (1 + e), of a void ratio e.
+enum class Conserved
+{
+  value,
+  grain_volume
+};
+
 /// Numbers of a point that the law carries from step to step.
 struct HistoryField
 {
   std::string name; ///< also of the output field; of a tensor with _xx ...
   int size = 1;     ///< 1, or 4: a symmetric tensor xx yy zz xy (xy is not
                     ///< doubled) that turns with the material
+  Conserved conserved = Conserved::value;
 };
 
 /// How a point begins, where the scene says more than the law.

@@ -23,6 +23,12 @@ template <class L>
 concept HasTexts = requires { L::texts; };
 template <class L>
 concept HasLists = requires { L::lists; };
+/// A law with files beside the scene.
+template <class L>
+concept HasFiles = requires(L law) {
+  law.folder;
+  { law.open() } -> std::same_as<std::string>;
+};
 
 /// Give `law` the value that its table calls `key`.
 /// @return false if there is no such key
@@ -61,6 +67,8 @@ template <class L>
 L filled(const scene::Material& material)
 {
   L law;
+  if constexpr (HasFiles<L>)
+    law.folder = material.folder;
   for (const auto& [key, text] : material.texts)
   {
     bool known = false;
@@ -98,6 +106,9 @@ scene::LawInfo info_of()
   for (const Parameter<L>& p : L::parameters)
     info.parameters.push_back({std::string(p.name), std::string(p.unit),
                                p.range, L{}.*p.value, std::string(p.meaning)});
+  info.void_ratio =
+      std::ranges::any_of(L{}.history(), [](const HistoryField& field)
+                          { return field.name == "void_ratio"; });
   if constexpr (HasTexts<L>)
     for (const TextParameter<L>& t : L::texts)
       info.texts.push_back(
@@ -134,15 +145,21 @@ AnyLaw make_law(const scene::Material& material)
   for_each_law(list,
                [&]<class L>(L)
                {
-                 if (L::name == material.law)
-                   made = filled<L>(material);
+                 if (L::name != material.law)
+                   return;
+                 L law = filled<L>(material);
+                 if constexpr (HasFiles<L>)
+                   if (const std::string trouble = law.open();
+                       not trouble.empty())
+                     throw std::invalid_argument(trouble);
+                 made = std::move(law);
                });
   if (not made)
     throw std::invalid_argument("no law is called '" + material.law + "'");
   return *made;
 }
 
-std::vector<std::string> history_names(const AnyLaw& law)
+std::vector<std::string> history_names(const AnyLaw& law, bool water)
 {
   std::vector<std::string> names;
   for (const HistoryField& field :
@@ -152,11 +169,13 @@ std::vector<std::string> history_names(const AnyLaw& law)
     else
       for (const char* component : {"_xx", "_yy", "_zz", "_xy"})
         names.push_back(field.name + component);
+  if (water)
+    names.insert(names.end(), {"pore_pressure", "porosity"});
   return names;
 }
 
-int num_history(const AnyLaw& law)
+int num_history(const AnyLaw& law, bool water)
 {
-  return static_cast<int>(history_names(law).size());
+  return static_cast<int>(history_names(law, water).size());
 }
 } // namespace mmale::material

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "drucker_prager.h"
 #include "elastic.h"
+#include "herschel_bulkley.h"
 #include "hypoplastic.h"
 #include "j2.h"
+#include "mohr_coulomb.h"
+#include "newtonian.h"
+#include "rigid.h"
 #include "scene/parameter.h"
+#include "umat.h"
+#include "void.h"
 #include <variant>
 
 namespace mmale::material
 {
 /// Every law. A new one is its file and its name here; the scene reader and
 /// the conformance tests walk this list.
-using AnyLaw = std::variant<Elastic, J2, Hypoplastic>;
+using AnyLaw =
+    std::variant<Elastic, J2, DruckerPrager, MohrCoulomb, Hypoplastic,
+                 Newtonian, HerschelBulkley, Rigid, Void, Umat>;
 
 /// Names, parameters and ranges of all laws, for the scene reader.
 std::vector<scene::LawInfo> law_infos();
@@ -19,12 +28,14 @@ std::vector<scene::LawInfo> law_infos();
 /// A law filled from a scene that has no complaints left: defaults, then the
 /// parameter set if one is named, then what is written.
 ///
-/// @throws std::invalid_argument for an unknown law, set or parameter
+/// @throws std::invalid_argument for an unknown law, set or parameter, or a
+///         library that cannot be loaded
 AnyLaw make_law(const scene::Material& material);
 
-/// Numbers of a point's history.
-int num_history(const AnyLaw& law);
+/// Numbers of a point's history, with water in its pores those of the water at
+/// the end.
+int num_history(const AnyLaw& law, bool water = false);
 
 /// Names of these numbers; a tensor has four, ending in _xx, _yy, _zz, _xy.
-std::vector<std::string> history_names(const AnyLaw& law);
+std::vector<std::string> history_names(const AnyLaw& law, bool water = false);
 } // namespace mmale::material

@@ -40,7 +40,7 @@ std::vector<std::string> split(const std::string& line)
   for (char c : line)
     if (c == ',')
       out.emplace_back();
-    else
+    else if (c != ' ')
       out.back() += c;
   return out;
 }
@@ -149,11 +149,25 @@ Curves read_curves(const std::filesystem::path& file)
 {
   std::ifstream in(file);
   std::string line;
-  if (not in or not std::getline(in, line))
+  int number = 0;
+  // People's own tables have remarks, blank lines and Windows' line ends.
+  const auto next = [&]
+  {
+    while (std::getline(in, line))
+    {
+      ++number;
+      while (not line.empty() and (line.back() == '\r' or line.back() == ' '))
+        line.pop_back();
+      if (not line.empty() and line.front() != '#')
+        return true;
+    }
+    return false;
+  };
+  if (not in or not next())
     throw std::runtime_error("cannot read " + file.string());
   Curves out(split(line));
   std::vector<double> row;
-  for (int number = 2; std::getline(in, line); ++number)
+  while (next())
   {
     row.clear();
     for (const std::string& cell : split(line))

@@ -23,6 +23,7 @@ import picture
 from draw_charts import column, draw_chart, draw_panels, draw_together
 from draw_domains import draw_domain
 from draw_fields import draw_field, draw_fields
+from draw_sheet import draw_sheet, draw_sheets
 from picture import Trouble
 from read_run import read_curves, read_plan
 
@@ -34,6 +35,7 @@ def run(folder):
     jobs = [(draw_chart, chart) for chart in plan["charts"]]
     jobs += [(draw_field, picture) for picture in plan["fields"]]
     jobs += [(draw_domain, domain) for domain in plan.get("domains", [])]
+    jobs += [(draw_sheet, sheet) for sheet in plan.get("sheets", [])]
     for job, what in jobs:
         try:
             job(folder, plan, what)
@@ -113,9 +115,11 @@ def sweep(folder, members):
                 draw_runs(plan, chart, runs, folder / chart["file"])
             except Trouble as trouble:
                 failed.append(f"{chart['file']}: {trouble}")
-    for what in plan["fields"]:
+    jobs = [(draw_fields, what) for what in plan["fields"]]
+    jobs += [(draw_sheets, what) for what in plan.get("sheets", [])]
+    for job, what in jobs:
         try:
-            draw_fields(dict(zip(labels, members)), plan, what, folder / what["file"])
+            job(dict(zip(labels, members)), plan, what, folder / what["file"])
         except Trouble as trouble:
             failed.append(f"{what['file']}: {trouble}")
     if failed:

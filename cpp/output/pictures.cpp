@@ -97,6 +97,21 @@ ordered_json json(const Chart& chart)
           {"references", lines}};
 }
 
+ordered_json json(const Sheet& sheet)
+{
+  ordered_json panels = ordered_json::array();
+  for (const Panel& p : sheet.panels)
+    panels.push_back({{"x", p.x}, {"y", p.y}, {"log_x", p.log_x}});
+  ordered_json points = ordered_json::array();
+  for (const KnownPoint& k : sheet.points)
+    points.push_back(
+        {{"x", k.x}, {"at", k.at}, {"y", k.y}, {"value", k.value}});
+  return {{"file", sheet.name + ".png"},
+          {"panels", panels},
+          {"points", points},
+          {"data", sheet.data}};
+}
+
 /// Run draw.py with these words after its name; empty, or why it failed.
 std::string run_draw(std::vector<std::string> words)
 {
@@ -235,11 +250,14 @@ std::string to_json(const Pictures& p)
                        {"name", name},
                        {"outline", name + ".txt"},
                        {"pieces", name + ".vtp"}});
+  ordered_json sheets = ordered_json::array();
+  for (const Sheet& sheet : p.sheets)
+    sheets.push_back(json(sheet));
   const ordered_json out = {
       {"title", p.title},           {"axisymmetric", p.axisymmetric},
       {"curves", "curves.csv"},     {"charts", charts},
       {"field_file", p.field_file}, {"fields", fields},
-      {"domains", domains}};
+      {"domains", domains},         {"sheets", sheets}};
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 

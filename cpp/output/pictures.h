@@ -38,6 +38,31 @@ struct Chart
   std::string x_label = {}, y_label = {}; ///< default the names
 };
 
+/// One curve over another.
+struct Panel
+{
+  std::string x = {}, y = {}; ///< columns of curves.csv
+  bool log_x = false;
+};
+
+/// A known point of curve `y` where curve `x` has a value.
+struct KnownPoint
+{
+  std::string x = {};
+  double at = 0;
+  std::string y = {};
+  double value = 0;
+};
+
+/// Panels with abscissas of their own in one picture.
+struct Sheet
+{
+  std::string name = {}; ///< of the file, without ".png"
+  std::vector<Panel> panels = {};
+  std::vector<KnownPoint> points = {}; ///< drawn in panels of their columns
+  std::string data = {}; ///< measured points in the run's folder, or ""
+};
+
 /// What a field is, for its colour bar.
 struct FieldInfo
 {
@@ -56,6 +81,7 @@ struct Pictures
   bool axisymmetric = false;
   /// Drawn beside what the mesh cuts out of them, from NAME.txt and NAME.vtp.
   std::vector<std::string> domains = {};
+  std::vector<Sheet> sheets = {};
 };
 
 /// Charts of references: each curve with a reference at a place over that

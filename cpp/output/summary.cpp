@@ -63,6 +63,15 @@ ordered_json json(const Timing& timing)
           {"cells_per_second", number(timing.cells_per_second)}};
 }
 
+ordered_json json(const Deviation& d)
+{
+  return {{"column", d.column},
+          {"abscissa", d.abscissa},
+          {"points", d.points},
+          {"outside", d.outside},
+          {"rms", number(d.rms)}};
+}
+
 template <class T>
 ordered_json list(const std::vector<T>& entries)
 {
@@ -157,26 +166,37 @@ std::string Summary::commit_from_environment()
 
 std::string to_json(const Summary& s)
 {
-  const ordered_json out = {{"title", s.title},
-                            {"outcome", s.outcome},
-                            {"checks", list(s.checks)},
-                            {"time", number(s.time)},
-                            {"steps", s.steps},
-                            {"rejected_steps", s.rejected},
-                            {"newton_iterations", s.iterations},
-                            {"remaps", s.remaps},
-                            {"remaps_left_out", s.remaps_left_out},
-                            {"remap_trouble", s.remap_trouble},
-                            {"resumed", s.resumed},
-                            {"cells", s.cells},
-                            {"nodes", s.nodes},
-                            {"wall_seconds", number(s.wall_seconds)},
-                            {"ranks", s.ranks},
-                            {"commit", s.commit},
-                            {"versions", s.versions},
-                            {"ledger", list(s.ledger)},
-                            {"timers", list(s.timers)},
-                            {"scene", scene(s.scene)}};
+  ordered_json out = {{"title", s.title},
+                      {"outcome", s.outcome},
+                      {"checks", list(s.checks)},
+                      {"time", number(s.time)},
+                      {"steps", s.steps},
+                      {"rejected_steps", s.rejected},
+                      {"newton_iterations", s.iterations},
+                      {"remaps", s.remaps},
+                      {"remaps_left_out", s.remaps_left_out},
+                      {"remap_trouble", s.remap_trouble},
+                      {"law", s.law},
+                      {"initial_imbalance", number(s.initial_imbalance)},
+                      {"resumed", s.resumed},
+                      {"cells", s.cells},
+                      {"nodes", s.nodes},
+                      {"wall_seconds", number(s.wall_seconds)},
+                      {"ranks", s.ranks},
+                      {"commit", s.commit},
+                      {"versions", s.versions},
+                      {"ledger", list(s.ledger)},
+                      {"timers", list(s.timers)},
+                      {"scene", scene(s.scene)}};
+  if (not s.data.empty())
+    out["data"] = list(s.data);
+  if (not s.water.empty())
+  {
+    ordered_json& water = out["water"];
+    for (const auto& [name, value] : s.water)
+      water[name] = number(value);
+    water["recommended"] = s.water_recommended;
+  }
   // Titles may hold bytes that are no UTF-8: they must not cost the summary.
   return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

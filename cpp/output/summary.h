@@ -17,6 +17,15 @@
 /// as such, and again at the end; each time whole or not at all.
 namespace mmale::output
 {
+/// A column of a test against measured points.
+struct Deviation
+{
+  std::string column, abscissa;
+  int points = 0;  ///< compared
+  int outside = 0; ///< where the test does not come
+  double rms = 0;  ///< root mean square of test less data
+};
+
 struct Summary
 {
   std::string title;
@@ -27,17 +36,22 @@ struct Summary
   std::int64_t rejected = 0;   ///< steps taken back
   std::int64_t iterations = 0; ///< Newton, rejected steps included
   std::int64_t remaps = 0;
-  std::int64_t remaps_left_out = 0; ///< asked for, but not possible
-  std::string remap_trouble;        ///< why, the last time
-  std::int64_t resumed = 0;         ///< times that it went on from a checkpoint
+  std::int64_t remaps_left_out = 0;             ///< asked for, but not possible
+  std::string remap_trouble;                    ///< why, the last time
+  std::map<std::string, std::int64_t> law = {}; ///< what its updates took
+  double initial_imbalance = 0; ///< of ground, over its weight [-]
+  std::int64_t resumed = 0;     ///< times that it went on from a checkpoint
   std::int64_t cells = 0, nodes = 0; ///< of the whole mesh
   double wall_seconds = 0;           ///< [s]
   std::map<std::string, std::string> versions = library_versions();
   std::string commit = commit_from_environment();
   int ranks = 1;
-  std::string scene; ///< as understood, JSON text
+  std::string scene;                   ///< as understood, JSON text
+  std::map<std::string, double> water; ///< numbers of the drainage; or none
+  std::string water_recommended;       ///< and the model that they ask for
   Ledger ledger;
   std::vector<Timing> timers;
+  std::vector<Deviation> data; ///< left out when empty
 
   /// Compiler and MMALE; the caller adds what else it is linked with.
   static std::map<std::string, std::string> library_versions();

@@ -55,25 +55,48 @@ void check_tracer_curve(const Scene& scene, const Curve& c,
     out.push_back({key + ".point", "is not used by " + c.quantity, {}});
 }
 
+/// A curve of the water, or of the stress without it.
+void check_water_curve(const Scene& scene, const Curve& c,
+                       const std::string& key, Complaints& out)
+{
+  const bool discharge = c.quantity == "discharge";
+  if (discharge and c.point)
+    out.push_back({key + ".point",
+                   "a discharge belongs to a boundary, not to a point",
+                   {}});
+  if (discharge and not(scene.water and scene.water->seepage()))
+    out.push_back({key + ".quantity",
+                   "discharge needs a table water with drainage = \"seepage\"",
+                   {}});
+  if (scene.water)
+    return;
+  if (c.quantity == "pore_pressure"
+      or c.quantity.starts_with("effective_stress"))
+    out.push_back({key + ".quantity", c.quantity + " needs a table water", {}});
+}
+
 /// A curve of the body: it names a boundary or a point.
 void check_body_curve(const Scene& scene, const Outline* outline,
                       const Curve& c, const std::string& key, Complaints& out)
 {
   const auto known = outline ? outline->names() : std::vector<std::string>();
-  const bool reaction = c.quantity.starts_with("reaction");
+  const bool reaction =
+      c.quantity.starts_with("reaction") or c.quantity == "discharge";
   if (scene.motion)
     out.push_back({key + ".quantity",
                    c.quantity + " is not known with a prescribed motion",
                    {}});
   if (not c.tracer.empty())
     out.push_back({key + ".tracer", "is not used by " + c.quantity, {}});
-  if (reaction and c.point)
+  if (reaction and c.point and c.quantity != "discharge")
     out.push_back({key + ".point",
                    "a reaction belongs to a boundary, not to a point",
                    {}});
   else if (c.point and not c.boundary.empty())
     out.push_back({key + ".point", "give boundary or point, not both", {}});
-  if (c.quantity.starts_with("stress"))
+  check_water_curve(scene, c, key, out);
+  if (c.quantity.starts_with("stress")
+      or c.quantity.starts_with("effective_stress"))
   {
     if (not c.boundary.empty())
       out.push_back({key + ".boundary",

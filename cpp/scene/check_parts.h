@@ -17,8 +17,14 @@ void check_mesh(const Scene& scene, Complaints& out);
 void check_boundaries(const Scene& scene, Complaints& out);
 void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out);
+/// Law, set and values of one material; `key` is its table's.
+void check_material(const Material& material, const Libraries& libraries,
+                    const std::string& key, Complaints& out);
 // The outline is null where nothing is known of it.
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out);
+/// Pore water: what it needs, and what needs it.
+void check_water(const Scene& scene, const Libraries& libraries,
+                 Complaints& out);
 /// Layout and element of the Lagrangian step.
 void check_solver(const Scene& scene, Complaints& out);
 

@@ -241,6 +241,18 @@ void check_kind(const std::string& name, const std::vector<std::string>& wanted,
                  {}});
 }
 
+/// Does the known material that is named bring this number? One whose name
+/// is not known has its complaint already.
+bool by_set(const Material& material, const LawInfo& law, const SetInfo* set,
+            const std::string& name)
+{
+  if (set)
+    return given(set->values, name);
+  return not law.set_key.empty() and given(material.texts, law.set_key)
+         and std::ranges::any_of(law.sets, [&name](const SetInfo& s)
+                                 { return given(s.values, name); });
+}
+
 void check_numbers(const Material& material, const LawInfo& law,
                    const SetInfo* set, const std::string& key, Complaints& out)
 {
@@ -253,7 +265,7 @@ void check_numbers(const Material& material, const LawInfo& law,
       const bool wrong_kind =
           given(material.texts, p.name) or given(material.lists, p.name);
       if (p.is_required() and not wrong_kind
-          and not(set and given(set->values, p.name)))
+          and not by_set(material, law, set, p.name))
         out.push_back({key + "." + p.name,
                        missing(p.sentence, p.unit, p.range.words()) + " (law "
                            + law.name + ")",
@@ -293,6 +305,24 @@ void check_parameters(const Material& material, const LawInfo& law,
 }
 } // namespace
 
+void check_material(const Material& material, const Libraries& libraries,
+                    const std::string& key, Complaints& out)
+{
+  const auto law =
+      std::ranges::find(libraries.laws, material.law, &LawInfo::name);
+  if (law != libraries.laws.end())
+    return check_parameters(material, *law, key, out);
+  std::vector<std::string> laws;
+  for (const LawInfo& info : libraries.laws)
+    laws.push_back(info.name);
+  out.push_back({key + ".law",
+                 material.law.empty() ? missing("Name of the material law", "",
+                                                "one of " + join(laws))
+                                      : "unknown '" + material.law + "', "
+                                            + suggestion(material.law, laws),
+                 {}});
+}
+
 void check_materials(const Scene& scene, const Libraries& libraries,
                      Complaints& out)
 {
@@ -307,31 +337,47 @@ void check_materials(const Scene& scene, const Libraries& libraries,
                                "one",
                                scene.material.size()),
                    {}});
-  std::vector<std::string> laws;
-  for (const LawInfo& law : libraries.laws)
-    laws.push_back(law.name);
   for (const auto& [name, material] : scene.material)
-  {
-    const std::string key = "material." + name;
-    const auto law =
-        std::ranges::find(libraries.laws, material.law, &LawInfo::name);
-    if (law != libraries.laws.end())
-      check_parameters(material, *law, key, out);
-    else if (material.law.empty())
-      out.push_back(
-          {key + ".law",
-           missing("Name of the material law", "", "one of " + join(laws)),
-           {}});
-    else
-      out.push_back(
-          {key + ".law",
-           "unknown '" + material.law + "', " + suggestion(material.law, laws),
-           {}});
-  }
+    check_material(material, libraries, "material." + name, out);
 }
+
+namespace
+{
+void check_initial(const Scene& scene, Complaints& out)
+{
+  const Initial& initial = scene.initial;
+  if (initial.pressure and initial.K0)
+    out.push_back({"initial.pressure", "is for a body without K0", {}});
+  for (std::size_t i = 1; i < initial.void_ratio.size(); ++i)
+    if (not(initial.void_ratio[i].depth > initial.void_ratio[i - 1].depth))
+      out.push_back({std::format("initial.void_ratio.{}.depth", i),
+                     "depths must ascend",
+                     {}});
+  if (not initial.K0)
+  {
+    if (initial.surface and initial.void_ratio.empty())
+      out.push_back({"initial.surface", "needs K0 or void_ratio", {}});
+    if (initial.surcharge > 0)
+      out.push_back({"initial.surcharge", "needs K0", {}});
+    if (initial.water_table)
+      out.push_back({"initial.water_table", "needs K0", {}});
+    return;
+  }
+  if (initial.water_table and not scene.water)
+    out.push_back({"initial.water_table", "needs a table [water]", {}});
+  const auto& gravity =
+      scene.stage.empty() ? std::nullopt : scene.stage.front().gravity;
+  if (not gravity or (*gravity)[0](0) != 0 or not((*gravity)[1](0) < 0))
+    out.push_back({"initial.K0",
+                   "needs gravity = [0, -9.81] or the like in the first stage",
+                   {}});
+}
+} // namespace
 
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out)
 {
+  if (not scene.motion)
+    check_initial(scene, out);
   if (scene.stage.empty() and scene.domain.empty())
     out.push_back({"stage",
                    "missing: at least one [[stage]] with name, duration and "

@@ -27,6 +27,12 @@ struct KeyInfo
 /// All keys in the order of the schema, then the numbers of every law.
 std::vector<KeyInfo> key_reference(const Libraries& libraries);
 
+/// What the laws take, as keys of a material whose table is `path`; its key
+/// `law` is in the reference already.
+/// @param path with the dot at its end
+void add_laws(const std::string& path, const Libraries& libraries,
+              std::vector<KeyInfo>& reference);
+
 /// The reference as text: the key and its facts on one line, the sentence
 /// below.
 std::string to_string(const std::vector<KeyInfo>& reference);

@@ -48,6 +48,14 @@ public:
       number(*node, under(_path, key.name), x);
   }
 
+  void operator()(const Key& key, std::optional<double>& x)
+  {
+    double value = 0;
+    if (const Node* node = find(key.name))
+      if (number(*node, under(_path, key.name), value))
+        x = value;
+  }
+
   void operator()(const Key& key, int& i)
   {
     if (const Node* node = find(key.name))
@@ -150,7 +158,8 @@ public:
   void operator()(const Key& key, std::optional<TimeSeries>& series)
   {
     if (const Node* node = find(key.name))
-      this->series(*node, under(_path, key.name), series.emplace());
+      if (not this->series(*node, under(_path, key.name), series.emplace()))
+        series.reset(); // what has no values is not looked at any further
   }
 
   void operator()(const Key& key,
@@ -372,6 +381,37 @@ private:
            and number(node.items[1], path, x[1]);
   }
 
+  void check_known(const Node& node, const std::string& path,
+                   const std::vector<std::string>& known)
+  {
+    for (const auto& [name, entry] : node.entries)
+      if (std::ranges::find(known, name) == known.end())
+        _record.fail(under(path, name),
+                     "unknown key, " + suggestion(name, known), entry.place);
+  }
+
+  bool sine(const Node& node, const std::string& path, TimeSeries& series)
+  {
+    check_known(node, path, {"mean", "amplitude", "frequency", "phase_deg"});
+    series.value = {0};
+    bool good = true;
+    for (const auto& [name, x] : {std::pair{"mean", &series.value.front()},
+                                  std::pair{"amplitude", &series.amplitude},
+                                  std::pair{"frequency", &series.frequency},
+                                  std::pair{"phase_deg", &series.phase_deg}})
+      if (const auto entry = node.entries.find(name);
+          entry != node.entries.end())
+      {
+        _record.places[under(path, name)] = entry->second.place;
+        good = number(entry->second, under(path, name), *x) and good;
+      }
+    if (not node.entries.contains("amplitude")
+        or not node.entries.contains("frequency"))
+      _record.fail(path, "missing: amplitude and frequency of the sine",
+                   node.place);
+    return good;
+  }
+
   bool series(const Node& node, const std::string& path, TimeSeries& series)
   {
     if (node.kind != Node::Kind::table)
@@ -383,11 +423,10 @@ private:
       }
       return number(node, path, series.value.emplace_back());
     }
+    if (node.entries.contains("amplitude") or node.entries.contains("mean"))
+      return sine(node, path, series);
     const std::vector<std::string> known = {"time", "value"};
-    for (const auto& [name, entry] : node.entries)
-      if (std::ranges::find(known, name) == known.end())
-        _record.fail(under(path, name),
-                     "unknown key, " + suggestion(name, known), entry.place);
+    check_known(node, path, known);
     for (const std::string& name : known)
     {
       const auto entry = node.entries.find(name);

@@ -1,168 +1,24 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scene/complaint.h"
 #include "scene/describe.h"
-#include "scene/schema.h"
+#include "scene/lister.h"
 #include <algorithm>
-#include <cmath>
-#include <format>
 
 namespace mmale::scene
 {
 namespace
 {
-std::string standard_of(double x)
+/// With a full stop.
+std::string closed(const std::string& sentence)
 {
-  return std::isnan(x) ? "required" : std::isinf(x) ? "" : std::format("{}", x);
+  return sentence.ends_with(".") ? sentence : sentence + ".";
 }
 
-/// Lists the keys of a default table; a visitor of `keys`.
-class Lister
-{
-public:
-  Lister(std::string path, std::vector<KeyInfo>& out)
-      : _path(std::move(path)), _out(out)
-  {
-  }
-
-  void operator()(const Key& key, double& x)
-  {
-    add(key, "number", key.range.words(), standard_of(x));
-  }
-
-  void operator()(const Key& key, int& i)
-  {
-    add(key, "whole number", key.range.words(), std::to_string(i));
-  }
-
-  void operator()(const Key& key, bool& flag)
-  {
-    add(key, "true or false", "", flag ? "true" : "false");
-  }
-
-  void operator()(const Key& key, std::string& text)
-  {
-    add(key, "text", join(key.choices), key.needed ? "required" : text);
-  }
-
-  template <Enumeration E>
-  void operator()(const Key& key, E& choice)
-  {
-    add(key, "text", join(names<E>()),
-        key.needed ? "required" : names<E>()[static_cast<std::size_t>(choice)]);
-  }
-
-  void operator()(const Key& key, Point& x)
-  {
-    add(key, "point [x, y]", "",
-        std::isnan(x[0]) ? "required" : std::format("[{}, {}]", x[0], x[1]));
-  }
-
-  void operator()(const Key& key, std::optional<Point>&)
-  {
-    add(key, "point [x, y]", "", "");
-  }
-
-  void operator()(const Key& key, std::array<Point, 4>&)
-  {
-    add(key, "4 points [x, y]", "", "required");
-  }
-
-  void operator()(const Key& key, std::array<int, 2>&)
-  {
-    add(key, "2 whole numbers", key.range.words(), "");
-  }
-
-  void operator()(const Key& key, std::vector<std::string>&)
-  {
-    add(key, "list of texts", "", "[]");
-  }
-
-  void operator()(const Key& key, std::optional<TimeSeries>&)
-  {
-    add(key, "number or {time = [s], value = [..]}", "", "");
-  }
-
-  void operator()(const Key& key, std::optional<std::array<TimeSeries, 2>>&)
-  {
-    add(key, "2 numbers or {time = [s], value = [..]}", "", "");
-  }
-
-  template <Table T>
-  void operator()(const Key& key, T& table)
-  {
-    enter(key, "table", key.name, table);
-  }
-
-  template <Table T>
-  void operator()(const Key& key, std::optional<T>&)
-  {
-    T table;
-    enter(key, "table", key.name, table);
-  }
-
-  template <Table T>
-  void operator()(const Key& key, std::map<std::string, T>&)
-  {
-    T table;
-    enter(key, "tables", key.name + ".NAME", table);
-  }
-
-  void operator()(const Key& key, std::vector<Stage>&)
-  {
-    Stage stage;
-    enter(key, "list of tables", key.name + ".NAME", stage);
-  }
-
-  template <Table T>
-  void operator()(const Key& key, std::vector<T>&)
-  {
-    T table;
-    enter(key, "list of tables", key.name + ".NUMBER", table);
-  }
-
-  // The laws' numbers follow at the end of the reference.
-  void rest(const std::string&, Material&) {}
-
-  template <class F>
-  void only_with(const std::string& selector, const std::string&,
-                 const std::vector<std::string>& choices,
-                 std::initializer_list<std::size_t> wanted, F visit_keys)
-  {
-    const std::size_t first = _out.size();
-    visit_keys();
-    for (std::size_t i = first; i < _out.size(); ++i)
-      _out[i].sentence += " Only with " + selector + " = "
-                          + alternatives(choices, wanted) + ".";
-  }
-
-private:
-  void add(const Key& key, const std::string& kind, const std::string& allowed,
-           const std::string& standard)
-  {
-    _out.push_back(
-        {_path + key.name, kind, key.unit, allowed, standard, key.sentence});
-  }
-
-  template <Table T>
-  void enter(const Key& key, const std::string& kind, const std::string& name,
-             T& table)
-  {
-    _out.push_back({_path + name, kind, "", "", "", key.sentence});
-    Lister lister(_path + name + ".", _out);
-    keys(lister, table);
-  }
-
-  std::string _path;
-  std::vector<KeyInfo>& _out;
-};
-} // namespace
-
-namespace
-{
 /// What a law takes, as keys of a material.
-void add_law(const LawInfo& law, std::vector<KeyInfo>& reference)
+void add_law(const std::string& path, const LawInfo& law,
+             std::vector<KeyInfo>& reference)
 {
-  const std::string path = "material.NAME.", of = " Law " + law.name + ".";
+  const std::string of = " Law " + law.name + ".";
   if (not law.set_key.empty())
   {
     std::string sentence = "Known material whose numbers are taken:";
@@ -178,15 +34,34 @@ void add_law(const LawInfo& law, std::vector<KeyInfo>& reference)
   }
   for (const TextInfo& t : law.texts)
     reference.push_back({path + t.name, "text", "", "",
-                         t.needed ? "required" : "", t.sentence + "." + of});
+                         t.needed ? "required" : "", closed(t.sentence) + of});
   for (const ParameterInfo& p : law.parameters)
     reference.push_back({path + p.name, "number", p.unit, p.range.words(),
-                         standard_of(p.standard), p.sentence + "." + of});
+                         standard_of(p.standard), closed(p.sentence) + of});
   for (const ListInfo& l : law.lists)
     reference.push_back(
-        {path + l.name, "list of numbers", "", "", "", l.sentence + "." + of});
+        {path + l.name, "list of numbers", "", "", "", closed(l.sentence) + of});
+}
+
+void allow(std::vector<KeyInfo>& reference, const std::string& key,
+           const std::vector<std::string>& list)
+{
+  std::ranges::find(reference, key, &KeyInfo::key)->allowed = join(list);
 }
 } // namespace
+
+void add_laws(const std::string& path, const Libraries& libraries,
+              std::vector<KeyInfo>& reference)
+{
+  std::vector<std::string> laws;
+  for (const LawInfo& law : libraries.laws)
+    laws.push_back(law.name);
+  allow(reference, path + "law", laws);
+  std::ranges::find(reference, path + "law", &KeyInfo::key)->standard =
+      "required";
+  for (const LawInfo& law : libraries.laws)
+    add_law(path, law, reference);
+}
 
 std::vector<KeyInfo> key_reference(const Libraries& libraries)
 {
@@ -194,20 +69,10 @@ std::vector<KeyInfo> key_reference(const Libraries& libraries)
   Scene scene;
   Lister lister("", reference);
   keys(lister, scene);
-
-  std::vector<std::string> laws;
-  for (const LawInfo& law : libraries.laws)
-    laws.push_back(law.name);
-  const auto allow = [&](const char* key, const std::vector<std::string>& list)
-  { std::ranges::find(reference, key, &KeyInfo::key)->allowed = join(list); };
-  allow("material.NAME.law", laws);
-  std::ranges::find(reference, "material.NAME.law", &KeyInfo::key)->standard =
-      "required";
-  allow("remap.smoother", libraries.smoothers);
-  allow("remap.transport", libraries.transports);
-  allow("output.picture.NAME.field", libraries.fields);
-  for (const LawInfo& law : libraries.laws)
-    add_law(law, reference);
+  allow(reference, "remap.smoother", libraries.smoothers);
+  allow(reference, "remap.transport", libraries.transports);
+  allow(reference, "output.picture.NAME.field", libraries.fields);
+  add_laws("material.NAME.", libraries, reference);
   return reference;
 }
 

@@ -60,6 +60,7 @@ struct LawInfo
   std::vector<ListInfo> lists = {};
   std::string set_key = {}; ///< key that names a set; "" without sets
   std::vector<SetInfo> sets = {};
+  bool void_ratio = false; ///< its history knows the void ratio
 
   /// What is wrong with values that are each in range; empty is good.
   std::function<std::vector<std::string>(const Material&)> complaints = {};
@@ -68,11 +69,11 @@ struct LawInfo
 /// Names that scenes may use.
 struct Libraries
 {
-  std::vector<LawInfo> laws;
-  std::vector<std::string> smoothers;
-  std::vector<std::string> transports;
+  std::vector<LawInfo> laws = {};
+  std::vector<std::string> smoothers = {};
+  std::vector<std::string> transports = {};
 
   /// Fields that pictures can show, tracers aside; empty: not checked.
-  std::vector<std::string> fields;
+  std::vector<std::string> fields = {};
 };
 } // namespace mmale::scene

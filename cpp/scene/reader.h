@@ -30,7 +30,9 @@ struct FileText
 };
 
 /// Load a file: missing, a folder, empty and unreadable are complaints.
-FileText load(const std::filesystem::path& path);
+/// @param kind what it is to be, in folders named `kind`.toml
+FileText load(const std::filesystem::path& path,
+              const std::string& kind = "scene");
 
 /// Read a scene and check it.
 ///

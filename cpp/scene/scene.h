@@ -93,13 +93,19 @@ struct Material
   std::map<std::string, double> parameters = {};
   std::map<std::string, std::string> texts = {};
   std::map<std::string, std::vector<double>> lists = {};
+  std::string folder = {}; ///< where relative files start; no key: the reader
+                           ///< puts the scene's own folder
 };
 
-/// A value over the time of its stage [s]: constant, or piecewise linear.
+/// A value over the time of its stage [s]: constant, piecewise linear, or a
+/// sine about a mean, which is then the one value.
 struct TimeSeries
 {
   std::vector<double> time;  ///< ascending; empty for a constant
   std::vector<double> value; ///< same length, or one number
+  double amplitude = 0;      ///< of the sine
+  double frequency = 0;      ///< [1/s]
+  double phase_deg = 0;      ///< at the start of the stage [degrees]
 
   /// Value at time t; before the first and after the last time it is held.
   double operator()(double t) const;
@@ -118,6 +124,29 @@ struct Wall
   std::optional<TimeSeries> velocity_y; ///< of a rough wall [m/s]
 };
 
+/// Water in the pores of the material; without this table it is dry.
+struct Water
+{
+  std::string drainage; ///< "undrained": water stays where it is; "seepage": it
+                        ///< flows, its pressure at the nodes is an unknown
+  double bulk_modulus = 2.2e9;        ///< of the water [Pa]
+  double grain_bulk_modulus = 36e9;   ///< of the grains [Pa]
+  double density = 1000;              ///< of the water [kg/m3]
+  double cavitation_pressure = -99e3; ///< it bears no more suction [Pa]
+  double porosity = 0;                ///< 0: from the law's void ratio [-]
+  double permeability = 0; ///< hydraulic conductivity: velocity at a hydraulic
+                           ///< gradient of 1, unit weight density * 9.81 [m/s]
+  std::string storage = "lumped"; ///< "consistent" oscillates in small steps
+  double time_weight = 1; ///< of the end of a step in the flow: 1 damps, 1/2 is
+                          ///< of order 2 and lets sudden loads swing on
+  double frequency = 0;   ///< of the load, for the report; 0: of the
+                          ///< shortest stage [1/s]
+  double drainage_length = 0; ///< likewise; 0: breadth or height [m]
+
+  bool seepage() const { return drainage == "seepage"; }
+  double unit_weight() const { return density * 9.81; } ///< [N/m3]
+};
+
 /// What holds on a named boundary during a stage.
 ///
 /// Displacements count from the start of the stage. `velocity_*` is their
@@ -132,6 +161,10 @@ struct Condition
   std::optional<TimeSeries> pressure; ///< follows the surface, inward is + [Pa]
   std::optional<Wall> wall;
   bool absorbing = false; ///< dashpots let waves out; of a dynamic stage
+  // of the water, with seepage; else no water passes
+  bool drained = false;                    ///< pore pressure 0
+  std::optional<TimeSeries> pore_pressure; ///< prescribed [Pa]
+  bool seepage_face = false; ///< drained where water flows out, else closed
 };
 
 /// Inertia in a stage: Newmark's scheme, or HHT's with alpha < 0.
@@ -271,10 +304,25 @@ struct Domain
                            ///< 0: 1e-4 of the box's height
 };
 
-/// The body at the start of the run; unstressed.
+/// A number at a depth below the ground surface.
+struct AtDepth
+{
+  double depth = required; ///< [m]
+  double value = required;
+};
+
+/// The body at the start of the run. Unstressed, or with a pressure, or as
+/// ground that lies at rest under its weight.
 struct Initial
 {
-  Point velocity = {0, 0}; ///< of all of it [m/s]
+  Point velocity = {0, 0};           ///< of all of it [m/s]
+  std::optional<double> pressure;    ///< the same everywhere [Pa]
+  std::optional<double> K0;          ///< horizontal over vertical stress [-]
+  std::optional<double> surface;     ///< of the ground, y [m]; default the top
+  double surcharge = 0;              ///< vertical stress at the surface [Pa]
+  std::optional<double> water_table; ///< y where the pore pressure is 0 [m];
+                                     ///< default the surface
+  std::vector<AtDepth> void_ratio;   ///< linear between depths, constant beyond
 };
 
 /// A prescribed rigid rotation instead of a Lagrangian step.
@@ -294,6 +342,9 @@ struct Curve
   std::string quantity;       ///< of a boundary or point: displacement_x|y,
                               ///< velocity_x|y, pressure; of a boundary:
                               ///< reaction_x|y; of a point: stress_xx|yy|zz|xy;
+                              ///< with water also pore_pressure,
+                              ///< effective_stress_xx|yy|zz|xy; with seepage
+                              ///< discharge of a boundary, outward;
                               ///< of a dynamic body: kinetic_energy,
                               ///< internal_work, external_work, total_energy;
                               ///< tracer_max|min|total
@@ -358,6 +409,7 @@ struct Scene
   Mesh mesh;
   std::map<std::string, Boundary> boundary;
   std::map<std::string, Material> material;
+  std::optional<Water> water;
   std::map<std::string, Tracer> tracer;
   std::map<std::string, Domain> domain;
   std::optional<Motion> motion;

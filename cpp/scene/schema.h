@@ -30,11 +30,16 @@ struct Key
 template <class T, class... U>
 concept OneOf = (std::same_as<T, U> or ...);
 
+/// Is T a table with `keys`? What is no part of a scene says so beside its own
+/// `keys`.
 template <class T>
-concept Table =
-    OneOf<T, Mesh, Grading, Boundary, Material, Wall, Condition, Dynamics,
-          Stage, Solver, Remap, Tracer, Domain, Initial, Motion, Curve, Line,
-          ReferenceLine, Chart, Picture, Output, Scene>;
+inline constexpr bool is_table =
+    OneOf<T, Mesh, Grading, Boundary, Material, Water, Wall, Condition,
+          Dynamics, Stage, Solver, Remap, Tracer, Domain, Initial, AtDepth,
+          Motion, Curve, Line, ReferenceLine, Chart, Picture, Output, Scene>;
+
+template <class T>
+concept Table = is_table<T>;
 
 template <class T>
 concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent,
@@ -86,12 +91,30 @@ inline const std::vector<std::string> sides = {"left", "right", "bottom",
                                                "top"};
 inline const std::vector<std::string> mesh_shapes = {"rectangle",
                                                      "quadrilateral", "gmsh"};
-inline const std::vector<std::string> quantities = {
-    "displacement_x", "displacement_y", "velocity_x",   "velocity_y",
-    "reaction_x",     "reaction_y",     "pressure",     "stress_xx",
-    "stress_yy",      "stress_zz",      "stress_xy",    "kinetic_energy",
-    "internal_work",  "external_work",  "total_energy", "tracer_max",
-    "tracer_min",     "tracer_total"};
+inline const std::vector<std::string> quantities = {"displacement_x",
+                                                    "displacement_y",
+                                                    "velocity_x",
+                                                    "velocity_y",
+                                                    "reaction_x",
+                                                    "reaction_y",
+                                                    "pressure",
+                                                    "stress_xx",
+                                                    "stress_yy",
+                                                    "stress_zz",
+                                                    "stress_xy",
+                                                    "pore_pressure",
+                                                    "effective_stress_xx",
+                                                    "effective_stress_yy",
+                                                    "effective_stress_zz",
+                                                    "effective_stress_xy",
+                                                    "discharge",
+                                                    "kinetic_energy",
+                                                    "internal_work",
+                                                    "external_work",
+                                                    "total_energy",
+                                                    "tracer_max",
+                                                    "tracer_min",
+                                                    "tracer_total"};
 
 /// Is the text among the wanted ones of the choices?
 inline bool is_one_of(const std::string& text,
@@ -236,10 +259,34 @@ void keys(V& v, Domain& d)
 }
 
 template <class V>
+void keys(V& v, AtDepth& a)
+{
+  v({"depth", "m", "Depth below the ground surface."}, a.depth);
+  v({"value", "-", "Value there.", above(0)}, a.value);
+}
+
+template <class V>
 void keys(V& v, Initial& i)
 {
   v({"velocity", "m/s", "Of the whole body; for a first stage with dynamics."},
     i.velocity);
+  v({"pressure", "Pa", "Stress everywhere, the same in all directions."},
+    i.pressure);
+  v({"K0", "-",
+     "Ground at rest under its weight: horizontal over vertical stress.",
+     above(0)},
+    i.K0);
+  v({"surface", "m", "Where the ground surface lies; default the body's top."},
+    i.surface);
+  v({"surcharge", "Pa", "Vertical stress at the ground surface.", at_least(0)},
+    i.surcharge);
+  v({"water_table", "m",
+     "Where the pore pressure is 0; default the surface. Pores are full "
+     "above."},
+    i.water_table);
+  v({"void_ratio", "",
+     "Void ratio by depth, instead of the law's; linear in between."},
+    i.void_ratio);
 }
 
 template <class V>
@@ -284,6 +331,10 @@ void keys(V& v, Condition& c)
     c.wall);
   v({"absorbing", "", "Dashpots let waves out; of a stage with dynamics."},
     c.absorbing);
+  v({"drained", "", "Pore pressure 0; otherwise no water passes."}, c.drained);
+  v({"pore_pressure", "Pa", "Prescribed pore pressure."}, c.pore_pressure);
+  v({"seepage_face", "", "Drained where water flows out, else closed."},
+    c.seepage_face);
 }
 
 template <class V>
@@ -488,6 +539,8 @@ void keys(V& v, Scene& s)
   v({"mesh", "", "Domain and its triangles."}, s.mesh);
   v({"boundary", "", "Named parts of sides."}, s.boundary);
   v({"material", "", "Materials, by name."}, s.material);
+  v({"water", "", "Water in the pores; without this table all is dry."},
+    s.water);
   v({"tracer", "", "Passive scalars carried by the remap, by name."}, s.tracer);
   v({"domain", "", "Polygons laid over the mesh, without stages, by name."},
     s.domain);
@@ -500,3 +553,5 @@ void keys(V& v, Scene& s)
   v({"output", "", "What is written besides the summary."}, s.output);
 }
 } // namespace mmale::scene
+
+#include "scene/schema_water.h"

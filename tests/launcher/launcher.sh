@@ -68,7 +68,7 @@ await()
 begin "--help names every verb and touches nothing"
 call --help
 expect_code 0
-for word in demo run check test study shell MMALE_CACHE; do expect "$word"; done
+for word in demo run check element test study shell MMALE_CACHE; do expect "$word"; done
 [[ ! -e $project/build ]] || wrong "made a build folder"
 
 begin "an unknown verb is answered with the nearest"
@@ -419,6 +419,25 @@ call test --all
 call test al
 expect_code 1
 expect "unknown argument 'al'"
+
+begin "element reaches the program, and its results are writable"
+touch "$sandbox/tests.toml"
+call element "$sandbox/tests.toml" path.0.eps_a=0.1 --results "$sandbox/out dir"
+expect_code 0
+expect "program element $sandbox/tests.toml path.0.eps_a=0.1 --results $sandbox/out dir"
+expect_log "--bind-try $sandbox/out dir $sandbox/out dir"
+call element "$sandbox/tests.toml" --results="$sandbox/other"
+expect_log "--bind-try $sandbox/other $sandbox/other"
+call element --keys
+expect "program element --keys"
+call element nothing.toml
+expect_code 1
+expect "no test file 'nothing.toml'"
+call element
+expect_code 1
+expect "name a test file"
+call elemnt
+expect "nearest: element;"
 
 begin "check, study and shell reach program, script and command"
 call check demos/piercing/scene.toml

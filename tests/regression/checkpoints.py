@@ -153,8 +153,16 @@ def near(a, b):
     same_checkpoint(a, b, 1e-6)
 
 
+WATER = """
+[water]
+drainage = "seepage"
+porosity = 0.4
+permeability = 1e-3
+"""
+
+
 def layouts():
-    """Points with stresses of their own, and inertia, go on bit by bit."""
+    """Points with stresses of their own, inertia and pore water go on bit by bit."""
     path = scene()
     inertia = """
 [stage.dynamics]
@@ -163,6 +171,9 @@ gamma = 0.6
 damping_mass = 1.0
 damping_stiffness = 1e-4
 """
+    drained = ["stage.push.boundary.surface.drained=true"]
+    drained += ["stage.slow.boundary.surface.seepage_face=true"]
+    drained += ["stage.slow.dynamics.damping_stiffness=0"]
     first, second = SCENE.split("[[stage]]")[1:]
     stage, rest = second.split("[remap]")
     shaking = "[[stage]]".join([SCENE.split("[[stage]]")[0], first, stage + inertia])
@@ -171,6 +182,8 @@ damping_stiffness = 1e-4
         ("six", SCENE, "solver.layout=quadrature", "solver.points=6"),
         ("dynamic", shaking + "[remap]" + rest),
         ("both", shaking + "[remap]" + rest, "solver.layout=quadrature"),
+        ("undrained", SCENE + WATER, "water.drainage=undrained"),
+        ("seepage", shaking + "[remap]" + rest + WATER, *drained),
     ):
         path.write_text(text)
         whole, _ = run(path, name, *words)

@@ -378,9 +378,13 @@ TEST_CASE("a zero increment changes nothing", "[conformance][material]")
       CHECK((a.s - start.s).norm() <= 4 * eps * size);
     CHECK(std::abs(a.p - start.p) <= 4 * eps * size);
     CHECK(a.flow <= 4 * eps);
+    const auto names = history_names(law);
     for (std::size_t i = 0; i < q.size() and not is_fluid(law); ++i)
-      CHECK(std::abs(q[i] - start.q[i])
-            <= 8 * eps * (sample.strain + std::abs(start.q[i])));
+      if (names[i] == "total_time") // runs on
+        CHECK(q[i] == start.q[i] + sample.dt);
+      else
+        CHECK(std::abs(q[i] - start.q[i])
+              <= 8 * eps * (sample.strain + std::abs(start.q[i])));
   }
 }
 
@@ -494,7 +498,9 @@ TEST_CASE("the samples' parameters are complete, in range and without "
           CHECK(parameter.range.holds(given.at(parameter.name)));
       }
   const AnyLaw law = make_law(sample.material);
-  CHECK(std::visit([](const auto& l) { return l.complaints(); }, law).empty());
+  if (sample.law() != "void") // which complains of being alone in a scene
+    CHECK(
+        std::visit([](const auto& l) { return l.complaints(); }, law).empty());
 }
 
 TEST_CASE("every parameter set makes a law without complaints, and says its "

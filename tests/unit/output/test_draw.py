@@ -18,6 +18,7 @@ import draw  # noqa: E402
 import draw_charts  # noqa: E402
 import draw_domains  # noqa: E402
 import draw_fields  # noqa: E402
+import draw_sheet  # noqa: E402
 import read_run  # noqa: E402
 
 
@@ -395,6 +396,32 @@ class Draw(unittest.TestCase):
                 if c < d and len(set(cells[c]) & set(cells[d])) == 2:
                     self.assertNotEqual(colour[c], colour[d])
         self.assertGreater(len(set(colour.values())), 4)
+
+    def test_known_points_lie_in_the_panels_of_their_columns(self):
+        sheet = {
+            "points": [
+                {"x": "eps_a", "at": 0.01, "y": "q", "value": 5},
+                {"x": "cycle", "at": 0.25, "y": "q", "value": 7},
+                {"x": "cycle", "at": 0.25, "y": "p", "value": 9},
+            ]
+        }
+
+        def points(x, y):
+            found = draw_sheet.known_points(sheet, {"x": x, "y": y})
+            return [tuple(p) for p in found.T]
+
+        self.assertEqual(points("eps_a", "q"), [(0.01, 5)])
+        self.assertEqual(points("cycle", "p"), [(0.25, 9)])
+        self.assertEqual(points("p", "q"), [(9, 7)])  # both known in one place
+        self.assertEqual(points("p", "tau"), [])
+
+    def test_stresses_are_shown_in_units_that_can_be_read(self):
+        def axis(name, values):
+            return draw_sheet.axis(name, {"": {name: np.array(values)}})
+
+        self.assertEqual(axis("q", [0, -2e5]), ("$q$ [kPa]", 1e-3))
+        self.assertEqual(axis("q", [0, -2e8]), ("$q$ [MPa]", 1e-6))
+        self.assertEqual(axis("state_1", [3.0]), ("state_1", 1))
 
     def test_formulae_are_printed_as_such(self):
         self.assertEqual(draw_charts.pretty("(2+pi)/sqrt(3)"), "(2+π)/√3")

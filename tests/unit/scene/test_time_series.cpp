@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scene/scene.h"
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <numbers>
 
 using mmale::scene::TimeSeries;
 
@@ -54,4 +56,21 @@ TEST_CASE("time series: a ramp that starts at 0 has no plateau before it",
   CHECK(series(1) == 3);
   CHECK(series.integral(2) == 6);
   CHECK(series.integral(3) == 12);
+}
+
+TEST_CASE("time series: a sine about a mean, and its exact integral", "[scene]")
+{
+  const TimeSeries series = {.value = {3},
+                             .amplitude = 2,
+                             .frequency = 0.25,
+                             .phase_deg = 90}; // 3 + 2 cos(pi t / 2)
+  CHECK(std::abs(series(0) - 5) < 1e-15);
+  CHECK(std::abs(series(1) - 3) < 1e-15);
+  CHECK(std::abs(series(2) - 1) < 1e-15);
+  CHECK(series.integral(0) == 0);
+  const double area = 4 / std::numbers::pi; // of a quarter of the wave
+  CHECK(std::abs(series.integral(1) - (3 + area)) < 1e-14);
+  CHECK(std::abs(series.integral(2) - 6) < 1e-14);
+  CHECK(std::abs(series.integral(4) - 12) < 1e-14);
+  CHECK(std::abs(series.integral(1e-9) / 5e-9 - 1) < 1e-15);
 }

@@ -2,6 +2,7 @@
 #include "body.h"
 
 #include "environment.h"
+#include "initial.h"
 #include "simulation.h"
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
@@ -16,7 +17,7 @@ struct Body::Parts
   explicit Parts(scene::Scene s)
       : scene(std::move(s)), sim(MPI_COMM_SELF, scene),
         element(lagrangian::make_element(sim.domain, *sim.law, scene.symmetry,
-                                         scene.solver))
+                                         scene.solver, scene.water))
   {
     constants.spring = scene.solver.bubble_spring;
     element->begin_step(sim.state, 1);
@@ -68,6 +69,14 @@ int Body::node(double x, double y) const
   return best;
 }
 
+std::array<double, 2> Body::settle()
+{
+  const Balance balance = mmale::settle(_parts->sim);
+  set_stage(_parts->scene.stage.front());
+  _parts->sim.problem->rest_under_gravity();
+  return {balance.as_laid, balance.settled};
+}
+
 void Body::set_stage(const scene::Stage& stage)
 {
   _parts->sim.problem->set_stage(stage, state());
@@ -90,6 +99,12 @@ std::array<double, 2> Body::reaction(const std::string& boundary) const
 {
   return _parts->sim.problem
       ->reactions()[_parts->sim.domain.boundary(boundary)];
+}
+
+double Body::discharge(const std::string& boundary) const
+{
+  return _parts->sim.problem
+      ->discharge()[_parts->sim.domain.boundary(boundary)];
 }
 
 std::array<double, 2> Body::mismatch() const

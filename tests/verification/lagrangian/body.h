@@ -41,10 +41,15 @@ public:
   std::vector<int> nodes(const std::string& boundary) const;
   int node(double x, double y) const; ///< nearest at the start
 
+  /// Ground at rest under its weight, in the scene's first stage; the largest
+  /// force on a free node over the weight, as laid and as settled.
+  std::array<double, 2> settle();
+
   /// The solver: Newton on the conditions of a stage.
   void set_stage(const scene::Stage& stage);
   [[nodiscard]] Taken step(double t0, double t1);
   std::array<double, 2> reaction(const std::string& boundary) const;
+  double discharge(const std::string& boundary) const; ///< [m3/s/m]
   std::array<double, 2> mismatch() const; ///< RMS of P - p, theta - ln J
   double kinetic_energy();                ///< of a dynamic stage [J/m]
   void rebalance(double t);               ///< as after a remap

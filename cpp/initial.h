@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "lagrangian/element.h"
+#include "mesh/domain.h"
+#include "scene/scene.h"
+#include "state.h"
+
+/// The body at the start of a run (METHOD.md, Initial state).
+namespace mmale
+{
+struct Simulation;
+
+/// What the ground is like at a height, at rest under its weight.
+class Ground
+{
+public:
+  /// Collective.
+  Ground(const scene::Scene& scene, const mesh::Domain& domain,
+         const lagrangian::Element& element);
+
+  /// Void ratio, or NaN where the scene leaves it to the law.
+  double void_ratio(double y) const;
+  double density(double y) const;         ///< of all, water too [kg/m3]
+  double pore_pressure(double y) const;   ///< 0 without water [Pa]
+  double vertical_stress(double y) const; ///< total, compression positive [Pa]
+  double pressure(double y) const;        ///< total [Pa]
+  /// What the vertical stress exceeds the pressure by [Pa].
+  double excess(double y) const;
+
+private:
+  const scene::Scene& _scene;
+  const lagrangian::Element& _element;
+  double _surface;     ///< [m]
+  double _gravity = 0; ///< downward [m/s2]
+};
+
+/// Stress, nodal pressures, density and history of every cell, ghosts too.
+/// Collective.
+void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
+                  const lagrangian::Element& element, State& state);
+
+/// How far from balance the body begins.
+struct Balance
+{
+  double as_laid = 0; ///< largest force on a free node over the weight [-]
+  double settled = 0; ///< the same when the run begins
+};
+
+/// Bring an initial stress that is in balance but for the mesh's error into
+/// balance with the first stage's loads and weight, by an elastic solution
+/// whose motion is not taken. Collective.
+///
+/// @throws std::runtime_error if the balance is not reached
+Balance settle(Simulation& sim);
+} // namespace mmale
