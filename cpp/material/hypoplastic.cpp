@@ -240,14 +240,15 @@ Sand H::constants() const
   using std::pow, std::sqrt;
   constexpr double radian = std::numbers::pi / 180;
   const double s = std::sin(phi_c_deg * radian);
-  Sand c{.h_s = h_s,
-         .n = n,
-         .e_d = e_d0,
-         .e_c = e_c0,
-         .e_i = e_i0,
-         .alpha = alpha,
-         .beta = beta,
-         .floor = p_min};
+  Sand c;
+  c.h_s = h_s;
+  c.n = n;
+  c.e_d = e_d0;
+  c.e_c = e_c0;
+  c.e_i = e_i0;
+  c.alpha = alpha;
+  c.beta = beta;
+  c.floor = p_min;
   c.a = sqrt(3) * (3 - s) / (2 * root2 * s);
   c.f_d = pow((e_i0 - e_d0) / (e_c0 - e_d0), alpha);
   const double stiff = pow(e_i0 / e_c0, beta);
