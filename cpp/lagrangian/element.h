@@ -117,13 +117,13 @@ public:
   /// Whether the tangent is symmetric but for the geometry's share, which is of
   /// the order of the step's strain and of stress over stiffness.
   bool symmetric() const;
+
   /// Does the law's deviator have no memory?
   bool fluid() const { return _fluid; }
 
   /// Has the law a zero-stress floor? Then it is counted where it acts.
   bool has_floor() const;
 
-  bool fluid() const { return _fluid; } ///< its deviator has no memory
   int num_points() const { return _num_points; }
   int num_history() const { return _num_history; } ///< of a point
 
