@@ -121,9 +121,12 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
       return "the law asks for a smaller step";
     turn_history(q, m.cosine, m.sine);
     cell.guess = cell.answer.theta;
+    // not by p: with friction a lower pressure flows more, which leads Newton
+    // away; steps fail from the first one on
+    cell.answer.dflow_dp = 0;
     if (not _options.plastic_bubble)
     {
-      cell.answer.flow = cell.answer.dflow_dp = 0;
+      cell.answer.flow = 0;
       cell.answer.dflow_de.setZero();
     }
     cell.s = rotate(cell.answer.s, m.cosine, m.sine);

@@ -134,7 +134,7 @@ Outcome DruckerPrager::update(const Point& start, const Strain& step,
     answer.dp_de.setZero();
     answer.dp_dtheta = -K;
   }
-  if (plastic and not(friction_deg > 0))
+  if (plastic)
     add_flow(G, trial, answer);
   return Outcome::ok;
 }

@@ -42,15 +42,14 @@ struct Gap
 /// than ten times its yield strain has nothing left to stabilise.
 inline constexpr double max_flow = 10;
 
-/// Flow of a law without friction, 2 G dLambda = |plastic part of the step's
-/// elastic stress| / |s|. With friction it stays 0: the strength of dry sand
-/// then is of the size of its pressure, and the plastic bubble made its
-/// pressure noisier (0.11 for 0.055 of the mean under a rough punch), while
-/// without friction it takes the noise out.
+/// Plastic flow, 2 G dLambda = |plastic part of the step's elastic stress|/|s|.
+/// Sand that is stiff beside its pressure needs it: without, the bubble goes on
+/// holding the volume strains of all the flow there has been, and the pressure
+/// has a checkerboard of its own size (METHOD.md, volume equation of sand).
 ///
 /// @param[in]     G      shear modulus [Pa]
 /// @param[in]     trial  deviator if the step were elastic [Pa]
-/// @param[in,out] answer with s and ds_de; gains flow and dflow_de
+/// @param[in,out] answer with s and ds_de; gains flow and its derivatives
 inline void add_flow(double G, const Voigt& trial, Response& answer)
 {
   const auto weighted = [](const Voigt& t)
@@ -60,12 +59,17 @@ inline void add_flow(double G, const Voigt& trial, Response& answer)
   if (not(cut_size > 0))
     return;
   answer.flow = std::min(cut_size / size, max_flow);
-  if (answer.flow < max_flow)
-    answer.dflow_de =
-        ((shear_stiffness(G) - answer.ds_de).transpose() * weighted(cut)
-             / cut_size
-         - answer.flow / size * answer.ds_de.transpose() * weighted(answer.s))
-        / size;
+  if (not(answer.flow < max_flow))
+    return;
+  answer.dflow_de =
+      ((shear_stiffness(G) - answer.ds_de).transpose() * weighted(cut)
+           / cut_size
+       - answer.flow / size * answer.ds_de.transpose() * weighted(answer.s))
+      / size;
+  answer.dflow_dtheta =
+      -answer.ds_dtheta.dot(weighted(cut) / cut_size
+                            + answer.flow / size * weighted(answer.s))
+      / size;
 }
 
 /// What is wrong with strength and dilation together.

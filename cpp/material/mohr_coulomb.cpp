@@ -294,8 +294,7 @@ Outcome MohrCoulomb::update(const Point& start, const Strain& step,
     answer.dp_de.setZero();
     answer.dp_dtheta = -K;
   }
-  if (not(friction_deg > 0))
-    add_flow(G, trial, answer);
+  add_flow(G, trial, answer);
   return Outcome::ok;
 }
 } // namespace mmale::material
