@@ -9,6 +9,7 @@
 #include "output/checkpoint.h"
 #include "output/checks.h"
 #include "output/curves.h"
+#include "output/keep.h"
 #include "output/on_root.h"
 #include "output/pictures.h"
 #include "output/progress.h"
@@ -95,52 +96,6 @@ output::Curves make_curves(bool root, const RunOptions& options,
               : output::Curves(names);
 }
 
-/// What the timers have seen, in a run that goes on.
-void keep(output::Archive& archive, output::Clock& clock,
-          std::vector<output::Timing> timings)
-{
-  std::vector<std::string> names;
-  std::vector<std::array<double, 2>> times;
-  for (const auto& t : timings)
-  {
-    names.push_back(t.name);
-    times.push_back({t.seconds, static_cast<double>(t.calls)});
-  }
-  std::string text = output::lines(names);
-  double wall = clock.wall();
-  archive("timers/names", text);
-  archive("timers/seconds_calls", times);
-  archive("timers/wall", wall);
-  if (not archive.loading())
-    return;
-  timings.clear();
-  names = output::from_lines(text);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    timings.push_back({.name = names[i],
-                       .seconds = times.at(i)[0],
-                       .calls = static_cast<std::int64_t>(times[i][1])});
-  clock.add(timings, wall);
-}
-
-/// The rows of curves.csv; a file of them is written anew.
-void keep(output::Archive& archive, output::Curves& curves)
-{
-  const std::size_t width = curves.names().size();
-  std::string names = output::lines(curves.names());
-  archive("curves/names", names);
-  std::vector<double> rows;
-  for (std::size_t r = 0; r < curves.rows(); ++r)
-    for (const auto& name : curves.names())
-      rows.push_back(curves.column(name)[r]);
-  archive("curves/rows", rows, static_cast<int>(width));
-  if (not archive.loading())
-    return;
-  if (names != output::lines(curves.names()))
-    throw std::runtime_error("the checkpoint has other curves");
-  for (std::size_t r = 0; r < rows.size(); r += width)
-    curves.add(std::span(rows).subspan(r, width));
-}
-
 std::optional<output::Archive> load(const mesh::Domain& domain,
                                     const RunOptions& options)
 {
@@ -148,18 +103,6 @@ std::optional<output::Archive> load(const mesh::Domain& domain,
     return std::nullopt;
   return std::optional<output::Archive>(
       std::in_place, domain, options.results / output::checkpoint_name);
-}
-
-/// Outputs of fields that a checkpoint knows of.
-void keep(output::Archive& archive, std::vector<output::FieldOutput>& outputs)
-{
-  std::vector<std::array<double, 2>> rows;
-  for (const auto& o : outputs)
-    rows.push_back({o.time, static_cast<double>(o.begin)});
-  archive("fields", rows);
-  outputs.clear();
-  for (const auto& [time, begin] : rows)
-    outputs.push_back({time, static_cast<std::int64_t>(begin)});
 }
 
 std::vector<output::FieldOutput>
@@ -291,8 +234,8 @@ void Run::keep_books(output::Archive& archive)
   for (const char* what : {"substeps", "rejected", "apex", "clipped"})
     archive(std::string("summary/law_") + what, _summary.law[what]);
   archive("summary/resumed", _summary.resumed);
-  mmale::keep(archive, _curves);
-  mmale::keep(archive, _sim.clock, timings());
+  output::keep(archive, _curves);
+  output::keep(archive, _sim.clock, timings());
 }
 
 bool Run::checkpoint_due() const
@@ -312,7 +255,7 @@ void Run::save()
   _header.time = _sim.state.time;
   _header.keep(archive);
   auto outputs = _fields.outputs();
-  mmale::keep(archive, outputs);
+  output::keep(archive, outputs);
   keep(archive);
   archive.write(_options.results / output::checkpoint_name);
   const double t1 = _sim.clock.wall();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "scene/choices.h"
 #include "scene/range.h"
 #include "scene/scene.h"
 #include <algorithm>
@@ -27,9 +28,6 @@ struct Key
   bool needed = false; ///< a text or name that must be written
 };
 
-template <class T, class... U>
-concept OneOf = (std::same_as<T, U> or ...);
-
 /// Is T a table with `keys`? What is no part of a scene says so beside its own
 /// `keys`.
 template <class T>
@@ -40,100 +38,6 @@ inline constexpr bool is_table =
 
 template <class T>
 concept Table = is_table<T>;
-
-template <class T>
-concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent,
-                            Factorisation, RemapMode>;
-
-/// Names of an enumeration, in the order of its values.
-template <Enumeration E>
-const std::vector<std::string>& names()
-{
-  using Names = std::vector<std::string>;
-  if constexpr (std::same_as<E, Symmetry>)
-  {
-    static const Names list = {"plane_strain", "axisymmetric"};
-    return list;
-  }
-  else if constexpr (std::same_as<E, Diagonal>)
-  {
-    static const Names list = {"right", "left", "alternating"};
-    return list;
-  }
-  else if constexpr (std::same_as<E, Element>)
-  {
-    static const Names list = {"mini", "equal_order", "constant_strain"};
-    return list;
-  }
-  else if constexpr (std::same_as<E, Layout>)
-  {
-    static const Names list = {"mean", "quadrature"};
-    return list;
-  }
-  else if constexpr (std::same_as<E, Tangent>)
-  {
-    static const Names list = {"consistent", "continuum", "robust"};
-    return list;
-  }
-  else if constexpr (std::same_as<E, Factorisation>)
-  {
-    static const Names list = {"automatic", "lu", "ldlt"};
-    return list;
-  }
-  else
-  {
-    static const Names list = {"lagrangian", "ale", "eulerian"};
-    return list;
-  }
-}
-
-inline const std::vector<std::string> sides = {"left", "right", "bottom",
-                                               "top"};
-inline const std::vector<std::string> mesh_shapes = {"rectangle",
-                                                     "quadrilateral", "gmsh"};
-inline const std::vector<std::string> quantities = {"displacement_x",
-                                                    "displacement_y",
-                                                    "velocity_x",
-                                                    "velocity_y",
-                                                    "reaction_x",
-                                                    "reaction_y",
-                                                    "pressure",
-                                                    "stress_xx",
-                                                    "stress_yy",
-                                                    "stress_zz",
-                                                    "stress_xy",
-                                                    "pore_pressure",
-                                                    "effective_stress_xx",
-                                                    "effective_stress_yy",
-                                                    "effective_stress_zz",
-                                                    "effective_stress_xy",
-                                                    "discharge",
-                                                    "kinetic_energy",
-                                                    "internal_work",
-                                                    "external_work",
-                                                    "total_energy",
-                                                    "tracer_max",
-                                                    "tracer_min",
-                                                    "tracer_total"};
-
-/// Is the text among the wanted ones of the choices?
-inline bool is_one_of(const std::string& text,
-                      const std::vector<std::string>& choices,
-                      std::initializer_list<std::size_t> wanted)
-{
-  return std::ranges::any_of(wanted,
-                             [&](std::size_t i) { return text == choices[i]; });
-}
-
-/// "\"a\" or \"b\"", the wanted ones of the choices.
-inline std::string alternatives(const std::vector<std::string>& choices,
-                                std::initializer_list<std::size_t> wanted)
-{
-  std::string text;
-  for (std::size_t i : wanted)
-    text += (text.empty() ? "\"" : " or \"") + choices[i] + "\"";
-  return text;
-}
 
 template <class V>
 void keys(V& v, Grading& g)

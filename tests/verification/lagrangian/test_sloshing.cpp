@@ -63,16 +63,12 @@ TEST_CASE("a basin sloshes at its exact frequency, up to h^2",
   CHECK(std::log2(error[1] / error[2]) > 1.8);
 }
 
-TEST_CASE("water does not slosh without the bubble, nor with one that has no "
-          "inertia",
+TEST_CASE("water does not slosh with a bubble that has no inertia",
           "[verification][fluid]")
 {
   // next to no viscosity holds the bubbles of layout quadrature
-  const int points = GENERATE(1, 3, 6);
-  auto scene = Basin::scene(16, points);
-  if (points == 1)
-    scene.solver.element = scene::Element::equal_order;
-  Basin basin(scene);
+  const int points = GENERATE(3, 6);
+  Basin basin(Basin::scene(16, points));
   double peak;
   const double period = measured_period(basin, peak);
   CAPTURE(points, period, peak);
