@@ -99,9 +99,11 @@ double Ground::vertical_stress(double y) const
 
 double Ground::excess(double y) const
 {
+  if (not _scene.initial.K0)
+    return 0;
   // horizontal is K0 times vertical, of the effective stresses
   const double effective = vertical_stress(y) - pore_pressure(y);
-  return _scene.initial.K0 ? effective * 2 * (1 - *_scene.initial.K0) / 3 : 0;
+  return effective * 2 * (1 - *_scene.initial.K0) / 3;
 }
 
 double Ground::pressure(double y) const
