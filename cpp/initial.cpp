@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "initial.h"
 
+#include "bridge/paint.h"
+#include "mixture.h"
+
 #include "lagrangian/kernel.h"
 #include "material/drive.h"
 #include "simulation.h"
@@ -151,6 +154,40 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
   }
 }
 
+void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
+                  std::span<const material::AnyLaw> laws, State& state)
+{
+  state.materials = bridge::paint(scene, domain);
+  const ::remap::Materials& materials = *state.materials;
+  const auto slots = static_cast<std::size_t>(materials.num_slots());
+  std::size_t h = 0;
+  bool floor = false;
+  std::vector<lagrangian::Medium> media;
+  for (const material::AnyLaw& law : laws)
+  {
+    const auto& medium = media.emplace_back(law, std::nullopt);
+    h = std::max(h, static_cast<std::size_t>(medium.num_history()));
+    floor = floor or medium.has_floor();
+  }
+  const double p = scene.initial.pressure.value_or(0);
+  state.p.assign(domain.num_nodes(), p);
+  state.s.assign(4 * slots, 0);
+  state.P.assign(slots, 0);
+  state.density.assign(slots, 0);
+  state.history.assign(h * slots, 0);
+  state.apex.assign(floor ? domain.num_cells() : 0, 0);
+  for (std::size_t slot = 0; slot < slots; ++slot)
+  {
+    const std::int32_t k = materials.material(static_cast<std::int32_t>(slot));
+    if (k < 0)
+      continue;
+    state.P[slot] = media[k].is_void() ? 0 : p;
+    state.density[slot] =
+        media[k].begin({.p = p}, 0, std::span(state.history).subspan(h * slot, h));
+  }
+  mixture::fill(state);
+}
+
 namespace
 {
 /// The first stage at its beginning: everything stands still.
@@ -192,7 +229,7 @@ double beyond_the_law(const Simulation& sim)
   State copy = sim.state;
   double worst = 0;
   const std::size_t h = sim.problem->element().num_history();
-  const std::size_t own = material::num_history(*sim.law);
+  const std::size_t own = material::num_history(sim.laws.front());
   std::visit(
       [&](const auto& law)
       {
@@ -207,7 +244,7 @@ double beyond_the_law(const Simulation& sim)
           worst = std::max(worst, cut);
         }
       },
-      *sim.law);
+      sim.laws.front());
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, sim.domain.comm);
   return worst;
 }
@@ -236,7 +273,7 @@ Balance settle(Simulation& sim)
     trial.history.clear(); // total stress: the water stays as it is
     trial.p_w.clear();
     trial.apex.clear();
-    lagrangian::Problem problem(sim.domain, elastic, sim.scene.symmetry,
+    lagrangian::Problem problem(sim.domain, std::span(&elastic, 1), sim.scene.symmetry,
                                 sim.scene.solver, std::nullopt, sim.clock);
     problem.set_stage(stage, trial);
     problem.rest_under_gravity();

@@ -40,6 +40,12 @@ private:
 void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
                   const lagrangian::Element& element, State& state);
 
+/// The same with several materials, painted into the cells as the scene says;
+/// unstressed, or with the scene's pressure.
+/// @param[in] laws of the materials, in the scene's order of names
+void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
+                  std::span<const material::AnyLaw> laws, State& state);
+
 /// How far from balance the body begins.
 struct Balance
 {

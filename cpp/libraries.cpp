@@ -2,7 +2,7 @@
 #include "libraries.h"
 
 #include "bridge/remap_step.h"
-#include "material/library.h"
+#include "material/closure.h"
 
 namespace mmale
 {
@@ -11,6 +11,8 @@ scene::Libraries libraries()
   return {.laws = material::law_infos(),
           .smoothers = bridge::smoothers(),
           .transports = bridge::transports(),
+          .closures = material::closures(),
+          .interfaces = bridge::interfaces(),
           .fields = {}};
 }
 } // namespace mmale

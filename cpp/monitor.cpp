@@ -346,7 +346,7 @@ output::Ledger Monitor::ledger() const
                  .end = volume(),
                  .through_surface = turn * passed.volume.through,
                  .booked = _lagrangian_volume + turn * passed.volume.at_walls});
-  if (_sim.law)
+  if (not _sim.laws.empty())
     out.push_back({.name = "mass",
                    .unit = "kg" + per,
                    .end = integral(_sim.state.density),

@@ -114,7 +114,7 @@ std::vector<output::NamedField> Monitor::fields()
       {"velocity", Location::nodal, 2, state.v, "m/s"}};
   for (const auto& [name, values] : state.tracer)
     out.push_back({name, Location::cell, 1, values, ""});
-  if (not _sim.law)
+  if (_sim.laws.empty())
     return out;
   const std::size_t cells = state.density.size();
   auto& [mises, stress, history, gap] = _derived;
@@ -134,7 +134,7 @@ std::vector<output::NamedField> Monitor::fields()
     out.push_back({"apex", Location::cell, 1, state.apex, ""});
   // history numbers come apart, one field each
   const auto names =
-      material::history_names(*_sim.law, _sim.scene.water.has_value());
+      material::history_names(_sim.laws.front(), _sim.scene.water.has_value());
   const std::size_t h = names.size();
   const auto means = cell_mean(state.history, h);
   history.resize(h * cells);

@@ -87,16 +87,19 @@ Simulation::Simulation(MPI_Comm comm, const scene::Scene& scene,
   }
   if (not scene.motion)
   {
-    const auto& material = scene.material.begin()->second;
-    law = material::make_law(material);
+    for (const auto& [name, material] : scene.material)
+      laws.push_back(material::make_law(material));
     problem = std::make_unique<lagrangian::Problem>(
-        domain, *law, scene.symmetry, scene.solver, scene.water, clock);
+        domain, laws, scene.symmetry, scene.solver, scene.water, clock);
     state.points = problem->element().num_points();
     for (std::size_t i = 0; i < 2 * nodes; ++i)
       state.v[i] = scene.initial.velocity[i % 2];
-    fill_initial(scene, domain, problem->element(), state);
+    if (laws.size() > 1)
+      fill_initial(scene, domain, laws, state);
+    else
+      fill_initial(scene, domain, problem->element(), state);
   }
   if (scene.remap.mode != scene::RemapMode::lagrangian)
-    remap = std::make_unique<bridge::RemapStep>(domain, scene, law, clock);
+    remap = std::make_unique<bridge::RemapStep>(domain, scene, laws, clock);
 }
 } // namespace mmale

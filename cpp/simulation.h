@@ -8,7 +8,7 @@
 #include "output/clock.h"
 #include "state.h"
 #include <memory>
-#include <optional>
+#include <vector>
 
 namespace mmale
 {
@@ -25,7 +25,8 @@ struct Simulation
   output::Clock clock;
   mesh::Domain domain;
   State state;
-  std::optional<material::AnyLaw> law;          ///< with a material
+  std::vector<material::AnyLaw> laws; ///< of the materials, in the scene's
+                                      ///< order of names
   std::unique_ptr<lagrangian::Problem> problem; ///< unless motion is prescribed
   std::unique_ptr<bridge::RemapStep> remap;     ///< unless Lagrangian
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "remap/materials/materials.h"
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,10 @@ struct Work
 
 /// All that a run carries from step to step. Nodal arrays and cell arrays hold
 /// owned entries, then ghosts. What a scene does not use is empty.
+///
+/// With several materials, s, P, history and density have a row for each slot
+/// of `materials`: first the cells, a mixed one with the means of its parts
+/// (`mixture.h`), then the parts.
 struct State
 {
   double time = 0;
@@ -27,6 +33,8 @@ struct State
       p_w;               ///< nodal pore pressure, with seepage, shape (n) [Pa]
   std::vector<double> v; ///< velocity; in statics displacement increment /
                          ///< step, shape (n, 2) [m/s]
+
+  std::optional<::remap::Materials> materials; ///< where there are several
 
   std::vector<double> s; ///< deviator xx yy zz xy, shape (m, points, 4) [Pa]
   std::vector<double> P; ///< pressure of the points, shape (m, points) [Pa]

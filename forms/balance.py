@@ -65,47 +65,56 @@ g_n = Constant(mesh, shape=(2,))  # and at its start
 dt = Constant(mesh)  # step [s]
 
 
-def residual(axisymmetric):
-    """Virtual work of all forces on the three test functions."""
+def whole(f):
+    """Where a cell that is one material is integrated: in its middle."""
+    return f
+
+
+def residual(axisymmetric, fill=1, at=whole, at_mass=whole):
+    """Virtual work of all forces on the three test functions.
+
+    In cells of several materials (mixed.py) `fill` is the share of the volume that
+    bears load, `at` its middle, `at_mass` that of the mass; s and rho are means over
+    the whole cell, mu is that of what bears load.
+    """
     r = x[0] if axisymmetric else 1
     u, p, u_b = split(ufl.split(w))
     _, p_n, _ = split(ufl.split(w_n))
     v, q, v_b = split(TestFunctions(W))
     h, h_b, e_b = (gradient(z, r, axisymmetric) for z in (v, v_b, u_b))
-    momentum = inner(s, h) - p * divergence(h) - rho * dot(g, v)
-    volume = q * (theta - ln_J)
+    momentum = inner(s, h) - fill * at(p) * divergence(h) - rho * dot(g, at_mass(v))
+    volume = fill * at(q) * (theta - ln_J)
     drive = p - memory * p_n + lam * p
     force = rho * (g - memory * g_n + lam * g)
-    stabilise = (
+    stabilise = fill * (
         2 * mu * inner(deviator(strain(e_b)), strain(h_b))
         - drive * divergence(h_b)
-        - dot(force, v_b)
         - q * divergence(e_b)
-    )
+    ) - dot(force, v_b)
     return (momentum + volume) * r * dx + stabilise * r * dx_bubble
 
 
-def tangent(axisymmetric):
+def tangent(axisymmetric, fill=1, at=whole, at_mass=whole):
     """Derivative of the residual by u, p and the bubble."""
     r = x[0] if axisymmetric else 1
-    R = residual(axisymmetric)
+    R = residual(axisymmetric, fill, at, at_mass)
     du, dp, _ = split(TrialFunctions(W))
     dh = gradient(du, r, axisymmetric)
-    dtheta = dot(dtheta_dh, dh) + dtheta_dp * dp
+    dtheta = dot(dtheta_dh, dh) + dtheta_dp * at(dp)
     dlam = dot(dlam_dh, dh) + dlam_dp * dp
     return (
         derivative(R, w, TrialFunction(W))
-        + derivative(R, s, ds_dh * dh + ds_dp * dp)
+        + derivative(R, s, ds_dh * dh + ds_dp * at(dp))
         + derivative(R, theta, dtheta)
         + derivative(R, lam, dlam)
     )
 
 
-def bubble_columns(axisymmetric):
+def bubble_columns(axisymmetric, fill=1, at=whole, at_mass=whole):
     """The tangent's last two columns, all that a residual alone needs."""
     u_b = TrialFunction(B)
     direction = as_vector((0, 0, 0, u_b[0], u_b[1]))
-    return derivative(residual(axisymmetric), w, direction)
+    return derivative(residual(axisymmetric, fill, at, at_mass), w, direction)
 
 
 R_plane, J_plane, B_plane = (f(False) for f in (residual, tangent, bubble_columns))

@@ -2,6 +2,7 @@
 #include "history_fields.h"
 
 #include "material/water.h"
+#include <algorithm>
 
 namespace mmale::bridge
 {
@@ -19,33 +20,41 @@ double value(Conserved what, double kept)
 }
 } // namespace
 
-HistoryFields::HistoryFields(const std::optional<material::AnyLaw>& law,
-                             bool water)
+HistoryFields::HistoryFields(std::span<const material::AnyLaw> laws, bool water)
 {
-  if (not law)
-    return;
-  int at = 0;
-  for (const material::HistoryField& field :
-       std::visit([](const auto& l) { return l.history(); }, *law))
+  for (std::size_t k = 0; k < laws.size(); ++k)
   {
-    _parts.push_back({at, field.size, field.conserved});
-    at += field.size;
+    std::vector<std::uint8_t> alone(laws.size(), 0);
+    alone[k] = 1;
+    const auto add = [&](int at, int size, Conserved what)
+    { _parts.push_back({at, size, what, static_cast<int>(k), alone, {}}); };
+    int at = 0;
+    for (const material::HistoryField& field :
+         std::visit([](const auto& l) { return l.history(); }, laws[k]))
+    {
+      add(at, field.size, field.conserved);
+      at += field.size;
+    }
+    for (int i = 0; water and i < material::Water::num_history; ++i)
+      add(at++, 1, Conserved::value);
+    _numbers = std::max(_numbers, static_cast<std::size_t>(at));
   }
-  for (int i = 0; water and i < material::Water::num_history; ++i)
-    _parts.push_back({at++, 1});
-  _numbers = at;
 }
 
-void HistoryFields::take(std::span<const double> history)
+void HistoryFields::take(std::span<const double> history,
+                         const ::remap::Materials* materials)
 {
   const std::size_t points = _numbers > 0 ? history.size() / _numbers : 0;
   for (Part& part : _parts)
   {
-    part.values.resize(points * part.size);
+    part.values.assign(points * part.size, 0);
     for (std::size_t i = 0; i < part.values.size(); ++i)
-      part.values[i] = conserved(
-          part.conserved,
-          history[i / part.size * _numbers + part.at + i % part.size]);
+      if (not materials
+          or materials->material(static_cast<std::int32_t>(i / part.size))
+                 == part.material)
+        part.values[i] = conserved(
+            part.conserved,
+            history[i / part.size * _numbers + part.at + i % part.size]);
   }
 }
 
@@ -63,6 +72,24 @@ void HistoryFields::add_to(std::vector<::remap::Field>& fields)
       fields.push_back({.values = part.values, .components = part.size});
 }
 
+void HistoryFields::add_to(std::vector<::remap::MaterialField>& fields)
+{
+  static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
+  for (Part& part : _parts)
+  {
+    ::remap::MaterialField field{.values = part.values,
+                                 .components = part.size,
+                                 .carriers = part.carriers};
+    if (part.size == 4)
+    {
+      field.group = 4;
+      field.bound = ::remap::Bound::ball;
+      field.weights = metric;
+    }
+    fields.push_back(field);
+  }
+}
+
 void HistoryFields::give(std::span<double> history) const
 {
   for (const Part& part : _parts)
@@ -72,5 +99,18 @@ void HistoryFields::give(std::span<double> history) const
       if (part.values[i] != conserved(part.conserved, x))
         x = value(part.conserved, part.values[i]);
     }
+}
+
+void HistoryFields::give(std::vector<double>& history,
+                         const ::remap::Materials& materials) const
+{
+  const std::int32_t slots = materials.num_slots();
+  history.assign(_numbers * static_cast<std::size_t>(slots), 0);
+  for (const Part& part : _parts)
+    for (std::int32_t slot = 0; slot < slots; ++slot)
+      if (materials.material(slot) == part.material)
+        for (int i = 0; i < part.size; ++i)
+          history[slot * _numbers + part.at + i] =
+              value(part.conserved, part.values[slot * part.size + i]);
 }
 } // namespace mmale::bridge

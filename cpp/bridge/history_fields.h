@@ -2,32 +2,45 @@
 #pragma once
 
 #include "material/library.h"
+#include "remap/materials/materials.h"
 #include "remap/transport/field.h"
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace mmale::bridge
 {
-/// The history of a law on its way through a remap: taken apart, so that each
+/// The history of laws on its way through a remap: taken apart, so that each
 /// tensor is limited as one, and in the quantities whose integrals are kept (a
 /// void ratio e as the grains' share of the volume, 1 / (1 + e)).
+///
+/// With several materials each has arrays of its own, over the slots of
+/// `remap::Materials`, of which only its own count.
 class HistoryFields
 {
 public:
   /// @param[in] water are the last numbers those of `material::Water`?
-  HistoryFields(const std::optional<material::AnyLaw>& law, bool water);
+  HistoryFields(std::span<const material::AnyLaw> laws, bool water);
+
+  /// Numbers of a point: the most of any law.
+  int numbers() const { return static_cast<int>(_numbers); }
 
   /// Into the arrays that travel.
   /// @param[in] history shape (points, numbers)
-  void take(std::span<const double> history);
+  /// @param[in] materials whose points these are; null: one material
+  void take(std::span<const double> history,
+            const ::remap::Materials* materials = nullptr);
 
   /// Fields on these arrays.
   void add_to(std::vector<::remap::Field>& fields);
+  void add_to(std::vector<::remap::MaterialField>& fields);
 
   /// And back. What has not changed on the way stays to the last digit.
   /// @param[in,out] history as it was taken
   void give(std::span<double> history) const;
+
+  /// With several materials: all of it anew, for the slots that there are now.
+  void give(std::vector<double>& history,
+            const ::remap::Materials& materials) const;
 
 private:
   struct Part
@@ -35,7 +48,9 @@ private:
     int at;   ///< of its first component in the history
     int size; ///< components of one point
     material::Conserved conserved = material::Conserved::value;
-    std::vector<double> values = {}; ///< shape (points, size)
+    int material = 0;
+    std::vector<std::uint8_t> carriers = {}; ///< this material alone
+    std::vector<double> values = {};         ///< shape (points, size)
   };
   std::vector<Part> _parts;
   std::size_t _numbers = 0;

@@ -3,6 +3,7 @@
 
 #include "history_fields.h"
 #include "material/water.h"
+#include "mixture.h"
 #include "mesh/corners.h"
 #include "output/archive.h"
 #include "placement.h"
@@ -80,11 +81,12 @@ bool among(const std::vector<std::string>& list, const std::string& name)
 
 /// What the remapper is to be ready for.
 ::remap::Options transport_options(const mesh::Domain& domain,
-                                   const scene::Scene& scene, bool law,
+                                   const scene::Scene& scene,
+                                   std::span<const material::AnyLaw> laws,
                                    int history,
                                    const ::remap::PointMesh* points)
 {
-  const int widest = std::max(law ? 4 : 1, history);
+  const int widest = std::max(laws.empty() ? 1 : 4, history);
   ::remap::Options o;
   o.geometry = geometry(scene);
   o.scheme = *::remap::find<::remap::Schemes>(scene.remap.transport);
@@ -101,6 +103,15 @@ bool among(const std::vector<std::string>& list, const std::string& name)
   o.per_mass = std::ranges::any_of(scene.stage, [](const auto& stage)
                                    { return stage.dynamics.has_value(); });
   o.nodal_components = scene.motion ? 0 : o.per_mass ? 2 : 1;
+  if (laws.size() > 1)
+  {
+    o.materials.number = static_cast<int>(laws.size());
+    o.materials.components = 4;
+    // the library's own has settings that suit transport
+    if (scene.remap.interfaces != "moment_of_fluid")
+      o.materials.reconstruction =
+          *::remap::find<::remap::Reconstructions>(scene.remap.interfaces);
+  }
   return o;
 }
 
@@ -120,6 +131,11 @@ bool among(const std::vector<std::string>& list, const std::string& name)
 std::vector<std::string> smoothers()
 {
   return ::remap::names<::remap::Smoothers>();
+}
+
+std::vector<std::string> interfaces()
+{
+  return ::remap::names<::remap::Reconstructions>();
 }
 
 std::vector<std::string> transports()
@@ -145,12 +161,15 @@ double worst_quality(const mesh::Domain& domain, const State& state)
 struct RemapStep::Impl
 {
   Impl(const mesh::Domain& domain, const scene::Scene& scene,
-       const std::optional<material::AnyLaw>& law, output::Clock& clock);
+       std::span<const material::AnyLaw> laws, output::Clock& clock);
 
   bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void add_stress(State& state, std::vector<::remap::Field>& fields);
+  void add_materials(State& state, std::vector<::remap::MaterialField>& fields);
   void make_admissible(State& state, RemapLog& log);
+  bool several() const { return laws.size() > 1; }
+  void exchange_of_materials(Exchange& out) const;
   void to_effective(State& state) const;
   void to_total(State& state) const;
   int water_numbers() const
@@ -160,15 +179,15 @@ struct RemapStep::Impl
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
-  const std::optional<material::AnyLaw>& law;
+  std::span<const material::AnyLaw> laws;
   output::Clock& clock;
   ::remap::Host host;
   ::remap::Mesh mesh;
-  int history;
+  HistoryFields travelling;
   std::optional<::remap::PointMesh> points; // with layout `quadrature`
   ::remap::Remapper remapper;
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
-  HistoryFields travelling;
+  std::vector<std::uint8_t> solid; // materials with a stress: not the void
   ::remap::Ledger ledger;
 
   std::optional<Placement> placement;
@@ -183,32 +202,28 @@ namespace
 {
 std::optional<::remap::PointMesh>
 make_points(const mesh::Domain& domain, const scene::Scene& scene,
-            const std::optional<material::AnyLaw>& law,
-            const ::remap::Mesh& mesh)
+            std::span<const material::AnyLaw> laws, const ::remap::Mesh& mesh)
 {
-  if (not law or scene.solver.layout != scene::Layout::quadrature)
+  if (laws.empty() or scene.solver.layout != scene::Layout::quadrature)
     return std::nullopt;
   return ::remap::PointMesh(mesh, point_layout(scene.solver.points),
                             domain.initial_x);
 }
-
-int history_numbers(const std::optional<material::AnyLaw>& law, bool water)
-{
-  return law ? material::num_history(*law, water) : 0;
-}
 } // namespace
 
 RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
-                      const std::optional<material::AnyLaw>& law,
+                      std::span<const material::AnyLaw> laws,
                       output::Clock& clock)
-    : domain(domain), scene(scene), law(law), clock(clock),
+    : domain(domain), scene(scene), laws(laws), clock(clock),
       host(make_host(domain)), mesh(make_mesh(domain)),
-      history(history_numbers(law, scene.water.has_value())),
-      points(make_points(domain, scene, law, mesh)),
-      remapper(mesh, transport_options(domain, scene, law.has_value(), history,
-                                       points ? &*points : nullptr)),
-      travelling(law, scene.water.has_value())
+      travelling(laws, scene.water.has_value()),
+      points(make_points(domain, scene, laws, mesh)),
+      remapper(mesh,
+               transport_options(domain, scene, laws, travelling.numbers(),
+                                 points ? &*points : nullptr))
 {
+  for (const material::AnyLaw& law : laws)
+    solid.push_back(not std::holds_alternative<material::Void>(law));
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
@@ -221,9 +236,9 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
 }
 
 RemapStep::RemapStep(const mesh::Domain& domain, const scene::Scene& scene,
-                     const std::optional<material::AnyLaw>& law,
+                     std::span<const material::AnyLaw> laws,
                      output::Clock& clock)
-    : _impl(std::make_unique<Impl>(domain, scene, law, clock))
+    : _impl(std::make_unique<Impl>(domain, scene, laws, clock))
 {
 }
 
@@ -306,18 +321,43 @@ void RemapStep::Impl::add_stress(State& state,
   travelling.add_to(fields);
 }
 
+/// The arrays that each material has for itself; of the void only a trace of
+/// density, so that no node is without mass.
+void RemapStep::Impl::add_materials(State& state,
+                                    std::vector<::remap::MaterialField>& fields)
+{
+  static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
+  mixture::clear(state);
+  fields.push_back({.values = state.density});
+  fields.push_back({.values = state.s,
+                    .components = 4,
+                    .group = 4,
+                    .bound = ::remap::Bound::ball,
+                    .weights = metric,
+                    .carriers = solid});
+  fields.push_back({.values = state.P, .carriers = solid});
+  travelling.take(state.history, &*state.materials);
+  travelling.add_to(fields);
+}
+
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,
                                 RemapLog& log)
 {
   const auto scope = clock.scope("3 transport");
   State copy = state; // a remap that stops half way is taken back
   std::vector<::remap::Field> cells, nodes, at_points, per_mass;
+  std::vector<::remap::MaterialField> of_materials;
   std::vector<std::vector<double>> inflow;
   inflow.reserve(state.tracer.size());
-  if (law)
+  if (not laws.empty())
   {
-    cells.push_back({.values = state.density});
-    add_stress(state, points ? at_points : cells);
+    if (several())
+      add_materials(state, of_materials);
+    else
+    {
+      cells.push_back({.values = state.density});
+      add_stress(state, points ? at_points : cells);
+    }
     nodes.push_back({.values = state.p});
     if (not state.p_w.empty())
       nodes.push_back({.values = state.p_w});
@@ -340,7 +380,13 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
                                        .points = at_points,
                                        .nodes = nodes,
                                        .per_mass = per_mass,
-                                       .density = 0},
+                                       .density = several() ? -1 : 0,
+                                       .materials =
+                                           several() ? &*state.materials
+                                                     : nullptr,
+                                       .of_materials = of_materials,
+                                       .material_density =
+                                           several() ? 0 : -1},
                                       host, ledger);
   log.cycles = remapper.report().cycles;
   if (outcome != ::remap::Outcome::ok)
@@ -350,38 +396,58 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     ledger = before;
     return false;
   }
-  travelling.give(state.history);
+  if (several())
+    travelling.give(state.history, *state.materials);
+  else
+    travelling.give(state.history);
   std::ranges::copy(x, state.x.begin());
   return true;
 }
 
 void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
 {
-  if (not law)
+  if (laws.empty())
     return;
   const auto scope = clock.scope("4 admissible");
   double largest = 0, clipped = 0;
-  std::visit(
-      [&](const auto& l)
-      {
-        const int owned = state.points * domain.num_owned_cells;
-        for (int q = 0; q < state.points * domain.num_cells(); ++q)
+  const auto h = static_cast<std::size_t>(travelling.numbers());
+  const auto admit = [&](const auto& law, std::size_t q, std::size_t numbers,
+                         bool owned)
+  {
+    const double part = law.admit(
+        Eigen::Map<material::Voigt>(state.s.data() + 4 * q), state.P[q],
+        std::span(state.history).subspan(h * q, numbers));
+    clipped += owned and part > 0;
+    largest = std::max(largest, part);
+  };
+  if (several())
+    for (std::int32_t slot = 0; slot < state.materials->num_slots(); ++slot)
+    {
+      const auto k = state.materials->material(slot);
+      if (k < 0)
+        continue;
+      std::visit([&](const auto& law)
+                 {
+                   admit(law, slot, material::num_history(laws[k]),
+                         slot < domain.num_owned_cells);
+                 },
+                 laws[k]);
+    }
+  else
+    std::visit(
+        [&](const auto& law)
         {
-          const double part = l.admit(
-              Eigen::Map<material::Voigt>(state.s.data() + 4 * q), state.P[q],
-              std::span(state.history)
-                  .subspan(static_cast<std::size_t>(history) * q,
-                           history - water_numbers()));
-          if (q < owned)
-            clipped += part > 0;
-          largest = std::max(largest, part);
-        }
-      },
-      *law);
+          const int owned = state.points * domain.num_owned_cells;
+          for (int q = 0; q < state.points * domain.num_cells(); ++q)
+            admit(law, q, h - water_numbers(), q < owned);
+        },
+        laws.front());
   host.max(std::span(&largest, 1));
   host.sum(std::span(&clipped, 1));
   log.clipped = static_cast<std::int64_t>(clipped);
   log.clipped_largest = largest;
+  if (several())
+    mixture::fill(state);
 }
 
 void RemapStep::keep(output::Archive& archive)
@@ -394,13 +460,18 @@ void RemapStep::keep(output::Archive& archive)
   archive("remap/node_volume", m.ledger.node_volume);
   archive("remap/cells", m.ledger.cells);
   archive("remap/nodes", m.ledger.nodes);
+  if (m.several())
+  {
+    archive("remap/material_volume", m.ledger.material_volume);
+    archive("remap/of_materials", m.ledger.of_materials);
+  }
 }
 
 /// What travels is p' and p_w, so that neither has the other's jumps: cells and
 /// nodes have effective pressures between this and `to_total`.
 void RemapStep::Impl::to_effective(State& state) const
 {
-  const auto h = static_cast<std::size_t>(history);
+  const auto h = static_cast<std::size_t>(travelling.numbers());
   for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
     state.P[q] -=
         material::pores(std::span(state.history).subspan(h * q, h)).p_w;
@@ -410,7 +481,7 @@ void RemapStep::Impl::to_effective(State& state) const
 
 void RemapStep::Impl::to_total(State& state) const
 {
-  const auto h = static_cast<std::size_t>(history);
+  const auto h = static_cast<std::size_t>(travelling.numbers());
   for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
     state.P[q] +=
         material::pores(std::span(state.history).subspan(h * q, h)).p_w;
@@ -444,6 +515,24 @@ Passed passed(const ::remap::Exchange& e)
 }
 } // namespace
 
+/// Of each material; none before the first remap.
+void RemapStep::Impl::exchange_of_materials(Exchange& out) const
+{
+  int k = 0;
+  for (const auto& [name, material] : scene.material)
+  {
+    const auto i = static_cast<std::size_t>(k++);
+    Passed& mass = out.material_mass[name];
+    Passed& volume = out.material_volume[name];
+    if (i < ledger.material_volume.size())
+      volume = passed(ledger.material_volume[i]);
+    if (i < ledger.of_materials.size()) // the density comes first
+      mass = passed(ledger.of_materials[i]);
+    out.mass.through += mass.through;
+    out.mass.at_walls += mass.at_walls;
+  }
+}
+
 Exchange RemapStep::exchange() const
 {
   // components in the order of `transport`; none before the first remap
@@ -453,10 +542,12 @@ Exchange RemapStep::exchange() const
   Exchange out;
   out.volume = passed(ledger.cell_volume);
   std::size_t k = 0;
-  if (_impl->law)
+  if (_impl->several())
+    _impl->exchange_of_materials(out);
+  else if (not _impl->laws.empty())
   {
     out.mass = at(0);
-    k = _impl->points ? 1 : 6 + _impl->history;
+    k = _impl->points ? 1 : 6 + _impl->travelling.numbers();
   }
   for (const auto& [name, tracer] : _impl->scene.tracer)
     out.tracer[name] = at(k++);

@@ -8,7 +8,7 @@
 #include "state.h"
 #include <array>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,11 +49,14 @@ struct Exchange
   Passed volume;                        ///< [m3/m]
   Passed mass;                          ///< [kg/m]
   std::map<std::string, Passed> tracer; ///< integral of each
+  std::map<std::string, Passed> material_volume; ///< of each of several
+  std::map<std::string, Passed> material_mass;
 };
 
 /// Smoother and transport schemes by name, as the scene may choose them.
 std::vector<std::string> smoothers();
 std::vector<std::string> transports();
+std::vector<std::string> interfaces();
 
 /// Worst radius ratio of all cells. Collective.
 double worst_quality(const mesh::Domain& domain, const State& state);
@@ -63,7 +66,7 @@ class RemapStep
 public:
   /// Collective.
   RemapStep(const mesh::Domain& domain, const scene::Scene& scene,
-            const std::optional<material::AnyLaw>& law, output::Clock& clock);
+            std::span<const material::AnyLaw> laws, output::Clock& clock);
   ~RemapStep();
 
   /// Is it time? Collective.

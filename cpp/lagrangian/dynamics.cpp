@@ -122,7 +122,7 @@ void Problem::book_work(State& state, std::span<const double> inner)
     work[0] += 0.5 * u * (state.inner[i] + inner[i]);
     work[1] -=
         0.5 * u * (state.force[i] - state.inner[i] + _total[i] - inner[i]);
-    if (_holder[z] >= 0 and _holder[z] != by_scheme()) // with its reaction
+    if (_holder[z] >= 0 and _holder[z] < by_scheme()) // with its reaction
       work[1] += 0.5 * u
                  * (state.force[i] + m * state.a[i] + _total[i]
                     + m * _newmark->a(i, u));
@@ -158,6 +158,7 @@ void Problem::rebalance(State& state, double t)
   if (not _newmark)
     return;
   _state = &state;
+  find_void(state);
   auto z = _z.mutable_array();
   for (int n = 0; n < _domain.num_nodes(); ++n)
   {
@@ -189,7 +190,7 @@ void Problem::rebalance(State& state, double t)
       const int i = 2 * n + d;
       state.force[i] = state.inner[i] + force[3 * n + d]
                        + (state.held_back.empty() ? 0 : state.held_back[i]);
-      if (_conditions->holder()[3 * n + d] < 0)
+      if (_conditions->holder()[3 * n + d] < 0 and bears(n))
         state.a[i] = -state.force[i] / _newmark->mass(n);
     }
   _domain.node_halo->update(state.force, 2);

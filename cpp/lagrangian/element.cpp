@@ -3,44 +3,33 @@
 
 #include "mean_element.h"
 #include "mesh/corners.h"
+#include "mixed_element.h"
 #include "point_element.h"
 #include <algorithm>
 #include <stdexcept>
 
 namespace mmale::lagrangian
 {
-Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
+Element::Element(const mesh::Domain& domain,
+                 std::span<const material::AnyLaw> laws,
                  scene::Symmetry symmetry, const scene::Solver& options,
                  const std::optional<scene::Water>& water, int points)
-    : _domain(domain), _law(law),
-      _axisymmetric(symmetry == scene::Symmetry::axisymmetric),
-      _options(options),
-      _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
-      _num_points(points),
-      _num_history(material::num_history(law, water.has_value())),
-      _volume(domain.num_owned_cells),
-      _history(static_cast<std::size_t>(_num_history) * points
-               * domain.num_owned_cells),
-      _G(domain.num_owned_cells)
+    : _domain(domain), _axisymmetric(symmetry == scene::Symmetry::axisymmetric),
+      _options(options), _num_points(points), _num_history(0),
+      _volume(domain.num_owned_cells), _G(domain.num_owned_cells)
 {
-  if (water)
+  for (const material::AnyLaw& law : laws)
   {
-    _water = {water->bulk_modulus, water->grain_bulk_modulus,
-              water->cavitation_pressure};
-    _flows = water->seepage();
-    _rho_f = water->density;
-    _porosity = water->porosity;
+    _media.emplace_back(law, water);
+    _num_history = std::max(_num_history, _media.back().num_history());
   }
-  int at = 0;
-  for (const material::HistoryField& field :
-       std::visit([](const auto& l) { return l.history(); }, law))
-  {
-    if (field.size == 4)
-      _tensors.push_back(at);
-    if (field.name == "void_ratio")
-      _void_ratio = at;
-    at += field.size;
-  }
+  _history.resize(static_cast<std::size_t>(_num_history) * points
+                  * domain.num_owned_cells);
+}
+
+bool Element::fluid() const
+{
+  return std::ranges::all_of(_media, &Medium::fluid);
 }
 
 void Element::begin_step(const State& state, double dt)
@@ -53,18 +42,19 @@ material::Moduli Element::moduli(const State& state, int c, double dt,
                                  bool fast) const
 {
   material::Moduli mean{0, 0};
-  with_medium(
-      [&](const auto& medium)
+  medium().with(
+      [&](const auto& answers)
       {
         for (int q = c * _num_points; q < (c + 1) * _num_points; ++q)
         {
           const material::Point at = point(state, q);
-          const auto [G, K] = medium(0).moduli(at, dt);
+          const auto [G, K] = answers(0).moduli(at, dt);
           mean.G += G / _num_points;
           mean.K += K / _num_points;
-          if (_flows and fast)
-            mean.K += 1 / _water->compressibility(material::pores(at.q))
-                      / _num_points;
+          if (medium().flows() and fast)
+            mean.K +=
+                1 / medium().water()->compressibility(material::pores(at.q))
+                / _num_points;
         }
       });
   return mean;
@@ -72,28 +62,7 @@ material::Moduli Element::moduli(const State& state, int c, double dt,
 
 bool Element::has_floor() const
 {
-  return std::visit([]<class L>(const L&)
-                    { return not material::LinearPressure<L>; }, _law);
-}
-
-double Element::begin(const material::Start& start, double p_w,
-                      std::span<double> q) const
-{
-  const int own = _num_history - (_water ? material::Water::num_history : 0);
-  return std::visit(
-      [&](const auto& law)
-      {
-        law.begin(start, q.first(own));
-        const double rho = material::initial_density(law, start);
-        if (not _water)
-          return rho;
-        material::Pores pores{p_w, _porosity};
-        if (has_void_ratio())
-          pores.n = q[_void_ratio] / (1 + q[_void_ratio]);
-        material::set_pores(pores, q);
-        return rho + pores.n * _rho_f;
-      },
-      _law);
+  return std::ranges::any_of(_media, &Medium::has_floor);
 }
 
 double Element::grain_gap(const State& state, int c) const
@@ -101,7 +70,7 @@ double Element::grain_gap(const State& state, int c) const
   double density = 0;
   std::vector<double> q(_num_history);
   for (int i = c * _num_points; i < (c + 1) * _num_points; ++i)
-    density += begin({.void_ratio = point(state, i).q[_void_ratio]}, 0, q)
+    density += begin({.void_ratio = point(state, i).q[medium().void_ratio()]}, 0, q)
                / _num_points;
   return std::log(state.density[c] / density);
 }
@@ -109,16 +78,17 @@ double Element::grain_gap(const State& state, int c) const
 double Element::end_density(const State& state, int c) const
 {
   const double shrunk = std::exp(-ln_J(c));
-  if (not _flows)
+  if (not medium().flows())
     return state.density[c] * shrunk;
+  const double rho_f = medium().water_density();
   double water[2] = {0, 0}; // at start and end
   for (int q = c * _num_points; q < (c + 1) * _num_points; ++q)
   {
     const auto at = static_cast<std::size_t>(_num_history) * q;
     const std::span<const double> end(_history);
-    water[0] += _rho_f * material::pores(point(state, q).q).n / _num_points;
+    water[0] += rho_f * material::pores(point(state, q).q).n / _num_points;
     water[1] +=
-        _rho_f * material::pores(end.subspan(at, _num_history)).n / _num_points;
+        rho_f * material::pores(end.subspan(at, _num_history)).n / _num_points;
   }
   return (state.density[c] - water[0]) * shrunk + water[1];
 }
@@ -144,21 +114,13 @@ FlowTangent Element::flow_tangent(const State&, int, std::span<const double>,
   throw std::logic_error("this layout has no seepage");
 }
 
-double Element::driven_pressure(const State& state, int q) const
-{
-  if (not _flows)
-    return state.P[q];
-  const auto h = static_cast<std::size_t>(_num_history);
-  return state.P[q]
-         - material::pores(std::span(state.history).subspan(h * q, h)).p_w;
-}
-
 material::Point Element::point(const State& state, int q) const
 {
-  return {
-      Voigt(state.s.data() + 4 * q), driven_pressure(state, q),
+  const auto history =
       std::span(state.history)
-          .subspan(static_cast<std::size_t>(_num_history) * q, _num_history)};
+          .subspan(static_cast<std::size_t>(_num_history) * q, _num_history);
+  return {Voigt(state.s.data() + 4 * q),
+          medium().driven_pressure(state.P[q], history), history};
 }
 
 material::TangentKind Element::tangent_kind() const
@@ -174,30 +136,23 @@ material::TangentKind Element::tangent_kind() const
   }
 }
 
-void Element::turn_history(std::span<double> q, double cosine,
-                           double sine) const
-{
-  for (int at : _tensors)
-  {
-    Eigen::Map<Voigt> t(q.data() + at);
-    t = rotate(Voigt(t), cosine, sine);
-  }
-}
-
 bool Element::symmetric() const
 {
   if (_options.element == scene::Element::constant_strain)
     return false; // its nodal pressure only listens
-  if (_flows)
+  if (medium().flows())
     return false; // the row of the flow
   // layout mean: the plastic bubble enters the volume equation alone, and the
   // nodes' acceleration only the bubble's
   const bool flows =
       _options.layout == scene::Layout::mean and _options.plastic_bubble;
-  return not _newmark
-         and std::visit([flows](const auto& l)
-                        { return l.symmetric and not(l.yields and flows); },
-                        _law);
+  const auto symmetric = [flows](const Medium& m)
+  {
+    return std::visit([flows](const auto& l)
+                      { return l.symmetric and not(l.yields and flows); },
+                      m.law());
+  };
+  return not _newmark and std::ranges::all_of(_media, symmetric);
 }
 
 double Element::force_squared(const State& state, int c) const
@@ -252,7 +207,7 @@ void Element::accept(State& state, std::span<const double> z, double dt)
   {
     const double before = state.density[c];
     state.density[c] = end_density(state, c);
-    if (_flows)
+    if (medium().flows())
       _water_gained +=
           state.density[c] * _volume[c]
           - before * mesh::cell_volume(_domain, state.x, c, _axisymmetric);
@@ -269,27 +224,35 @@ void Element::accept(State& state, std::span<const double> z, double dt)
     }
     state.p[n] = z[3 * n + 2];
   }
-  _domain.cell_halo->update(state.s, 4 * _num_points);
-  _domain.cell_halo->update(state.P, _num_points);
-  _domain.cell_halo->update(state.density, 1);
+  // with several materials rows of parts follow
+  const auto update = [this](std::vector<double>& field, int width)
+  {
+    const auto rows = static_cast<std::size_t>(_domain.num_cells());
+    _domain.cell_halo->update(std::span(field).first(rows * width), width);
+  };
+  update(state.s, 4 * _num_points);
+  update(state.P, _num_points);
+  update(state.density, 1);
   if (not state.apex.empty())
-    _domain.cell_halo->update(state.apex, 1);
+    update(state.apex, 1);
   if (_num_history > 0)
-    _domain.cell_halo->update(state.history, _num_history * _num_points);
+    update(state.history, _num_history * _num_points);
 }
 
 std::unique_ptr<Element> make_element(const mesh::Domain& domain,
-                                      const material::AnyLaw& law,
+                                      std::span<const material::AnyLaw> laws,
                                       scene::Symmetry symmetry,
                                       const scene::Solver& options,
                                       const std::optional<scene::Water>& water)
 {
+  if (laws.size() > 1)
+    return std::make_unique<MixedElement>(domain, laws, symmetry, options);
   if (options.layout == scene::Layout::mean)
-    return std::make_unique<MeanElement>(domain, law, symmetry, options, water);
+    return std::make_unique<MeanElement>(domain, laws, symmetry, options, water);
   if (options.points == 3)
-    return std::make_unique<PointElement<3>>(domain, law, symmetry, options,
+    return std::make_unique<PointElement<3>>(domain, laws, symmetry, options,
                                              water);
-  return std::make_unique<PointElement<6>>(domain, law, symmetry, options,
+  return std::make_unique<PointElement<6>>(domain, laws, symmetry, options,
                                            water);
 }
 } // namespace mmale::lagrangian

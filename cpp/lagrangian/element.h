@@ -2,9 +2,7 @@
 #pragma once
 
 #include "kernel.h"
-#include "kinematics.h"
-#include "material/library.h"
-#include "material/water.h"
+#include "medium.h"
 #include "mesh/domain.h"
 #include "newmark.h"
 #include "pore_pressure.h"
@@ -91,7 +89,7 @@ public:
                     std::span<double> J121) const = 0;
 
   /// State at the end of the step, ghosts filled. Collective.
-  void accept(State& state, std::span<const double> z, double dt);
+  virtual void accept(State& state, std::span<const double> z, double dt);
 
   /// Mass of the water that owned cells have gained in the last step, by flow
   /// [kg/m or kg/rad].
@@ -116,12 +114,12 @@ public:
 
   /// Whether the tangent is symmetric but for the geometry's share, which is of
   /// the order of the step's strain and of stress over stiffness.
-  bool symmetric() const;
+  virtual bool symmetric() const;
 
   /// Does the law's deviator have no memory?
   bool fluid() const { return _fluid; }
 
-  /// Has the law a zero-stress floor? Then it is counted where it acts.
+  /// Has a law a zero-stress floor? Then it is counted where it acts.
   bool has_floor() const;
 
   int num_points() const { return _num_points; }
@@ -130,10 +128,13 @@ public:
   /// Numbers of a point at the start of a run, and its density [kg/m3].
   /// @param[in] p_w pore pressure, if there is water [Pa]
   double begin(const material::Start& start, double p_w,
-               std::span<double> q) const;
+               std::span<double> q) const
+  {
+    return medium().begin(start, p_w, q);
+  }
 
   /// Does the law know its void ratio?
-  bool has_void_ratio() const { return _void_ratio >= 0; }
+  bool has_void_ratio() const { return medium().void_ratio() >= 0; }
 
   /// Logarithm of a cell's density over the one that goes with its void
   /// ratios: theta and ln J differ cell by cell, and this is their sum [-].
@@ -142,14 +143,17 @@ public:
   /// Moduli of a cell as it is: means over its points [Pa]. With seepage those
   /// of the skeleton, as in a slow step, unless water and grains are wanted
   /// too, as in a wave.
-  material::Moduli moduli(const State& state, int cell, double dt,
-                          bool fast = false) const;
+  virtual material::Moduli moduli(const State& state, int cell, double dt,
+                                  bool fast = false) const;
+
+  /// Is there anything but void in a cell, of this rank or a ghost?
+  virtual bool present(const State&, int) const { return true; }
 
   /// What the law's last answer took in a cell.
   virtual material::Effort effort(int cell) const = 0;
 
 protected:
-  Element(const mesh::Domain& domain, const material::AnyLaw& law,
+  Element(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
           scene::Symmetry symmetry, const scene::Solver& options,
           const std::optional<scene::Water>& water, int points);
 
@@ -172,58 +176,28 @@ protected:
   /// Mean of the nodes' trial pore pressure [Pa]; 0 without seepage.
   double pore_pressure(int cell) const;
 
-  /// Calls f with what makes a medium, the law and the water that is in it, of
-  /// a pore pressure at the end of the step; media go to `material::drive`.
-  auto with_medium(auto&& f) const
-  {
-    return std::visit(
-        [&]<class L>(const L& law)
-        {
-          if (not _water)
-            return f([&law](double) -> const L& { return law; });
-          const material::Water& water = *_water;
-          if (not _flows)
-            return f([&](double)
-                     { return material::Undrained<L>{law, water}; });
-          return f([&](double p_w)
-                   { return material::Seeping<L>{law, water, p_w}; });
-        },
-        _law);
-  }
-
-  /// Pressure of a point by which its medium is driven: the total one, or the
-  /// effective one where the water flows [Pa].
-  double driven_pressure(const State& state, int q) const;
-
   /// A point of the state, all points counted through.
   material::Point point(const State& state, int q) const;
 
-  /// Turn the tensors in the history of a point by the half step's rotation.
-  void turn_history(std::span<double> q, double cosine, double sine) const;
+  /// The material, where there is one.
+  const Medium& medium() const { return _media.front(); }
 
   const mesh::Domain& _domain;
-  const material::AnyLaw& _law;
+  std::vector<Medium> _media; ///< of the materials
   bool _axisymmetric;
   scene::Solver _options;
-  bool _fluid; ///< its deviator has no memory
-  std::optional<material::Water> _water;
-  bool _flows = false; ///< the water
   double _water_gained = 0;
-  double _rho_f = 0;    ///< its density [kg/m3]
-  double _porosity = 0; ///< at the start, if no void ratio tells it
   const PorePressure* _seepage = nullptr; ///< with water that flows
-  int _num_points, _num_history;
-  std::vector<int> _tensors; ///< where in the history one begins
-  int _void_ratio = -1;      ///< where it is in the history; -1: nowhere
+  int _num_points, _num_history; ///< the most of any material
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
   std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]
 };
 
-/// The element of the scene's layout.
+/// The element of the scene's layout, or that of several materials.
 /// @throws std::runtime_error when a form asks for what is not offered
 std::unique_ptr<Element>
-make_element(const mesh::Domain& domain, const material::AnyLaw& law,
+make_element(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
              scene::Symmetry symmetry, const scene::Solver& options,
              const std::optional<scene::Water>& water = std::nullopt);
 

@@ -32,6 +32,9 @@ struct CellInput
   double dtheta_dp;
   double dlam_dh[5];
   double dlam_dp;
+  // of cells of several materials, forms/mixed.py
+  double fill;
+  double offset[2], mass_offset[2];
   NewmarkInput newmark;
 };
 

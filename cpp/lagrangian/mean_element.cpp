@@ -6,20 +6,21 @@
 #include "mesh/corners.h"
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace mmale::lagrangian
 {
 MeanElement::MeanElement(const mesh::Domain& domain,
-                         const material::AnyLaw& law, scene::Symmetry symmetry,
+                         std::span<const material::AnyLaw> laws, scene::Symmetry symmetry,
                          const scene::Solver& options,
                          const std::optional<scene::Water>& water)
-    : Element(domain, law, symmetry, options, water, 1),
-      _R(_axisymmetric ? *form_balance_R_axi : *form_balance_R_plane,
-         IntegralKind::cell),
-      _J(_axisymmetric ? *form_balance_J_axi : *form_balance_J_plane,
-         IntegralKind::cell),
-      _B(_axisymmetric ? *form_balance_B_axi : *form_balance_B_plane,
-         IntegralKind::cell),
+    : Element(domain, laws, symmetry, options, water, 1),
+      _balance{{_axisymmetric ? *form_balance_R_axi : *form_balance_R_plane,
+                IntegralKind::cell},
+               {_axisymmetric ? *form_balance_J_axi : *form_balance_J_plane,
+                IntegralKind::cell},
+               {_axisymmetric ? *form_balance_B_axi : *form_balance_B_plane,
+                IntegralKind::cell}},
       _inertia{{_axisymmetric ? *form_inertia_R_axi : *form_inertia_R_plane,
                 IntegralKind::cell},
                {_axisymmetric ? *form_inertia_J_axi : *form_inertia_J_plane,
@@ -32,9 +33,10 @@ MeanElement::MeanElement(const mesh::Domain& domain,
                {_axisymmetric ? *form_inertia_J_damping_axi
                               : *form_inertia_J_damping_plane,
                 IntegralKind::cell}},
-      _cell(domain.num_owned_cells)
+      _cell(domain.num_owned_cells), _all(domain.num_owned_cells)
 {
-  if (_flows)
+  std::ranges::iota(_all, 0);
+  if (medium().flows())
     make_flow(*water);
 }
 
@@ -101,45 +103,46 @@ const char* MeanElement::strain_cell(const State& state, int c,
 int MeanElement::evaluate(const State& state, std::span<const double> z,
                           const Constants& constants, std::string& why)
 {
+  return evaluate_cells(medium(), _all, state, z, constants.dt, why);
+}
+
+int MeanElement::evaluate_cells(const Medium& medium,
+                                std::span<const int> cells, const State& state,
+                                std::span<const double> z, double dt,
+                                std::string& why)
+{
   const auto kind = tangent_kind();
-  std::vector<double> turned(_num_history);
-  const auto answer = [&](const auto& medium, int c)
+  const int numbers = medium.num_history();
+  std::vector<double> turned(numbers);
+  const auto answer = [&](const auto& answers, int c)
   {
     Cell& cell = _cell[c];
     const Motion& m = cell.motion;
     const auto at = static_cast<std::size_t>(_num_history) * c;
-    const auto q = std::span(_history).subspan(at, _num_history);
-    std::copy_n(state.history.begin() + at, _num_history, turned.begin());
-    turn_history(turned, m.cosine, m.sine);
+    const auto q = std::span(_history).subspan(at, numbers);
+    std::copy_n(state.history.begin() + at, numbers, turned.begin());
+    medium.turn(turned, m.cosine, m.sine);
     const material::Point start{
         rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine),
-        driven_pressure(state, c), turned};
+        medium.driven_pressure(state.P[c], turned), turned};
     const double p_w = pore_pressure(c); // 0 but where it flows
-    if (material::drive(medium(p_w), start, m.de, cell.p - p_w, constants.dt,
+    if (material::drive(answers(p_w), start, m.de, cell.p - p_w, dt,
                         cell.guess, kind, q, cell.answer)
         != Outcome::ok)
       return "the law asks for a smaller step";
-    turn_history(q, m.cosine, m.sine);
+    medium.turn(q, m.cosine, m.sine);
     cell.guess = cell.answer.theta;
-    // not by p: with friction a lower pressure flows more, which leads Newton
-    // away; steps fail from the first one on
-    cell.answer.dflow_dp = 0;
-    if (not _options.plastic_bubble)
-    {
-      cell.answer.flow = 0;
-      cell.answer.dflow_de.setZero();
-    }
-    cell.s = rotate(cell.answer.s, m.cosine, m.sine);
+    settle_answer(c);
     return static_cast<const char*>(nullptr);
   };
-  return with_medium(
-      [&](const auto& medium)
+  return medium.with(
+      [&](const auto& answers)
       {
-        for (int c = 0; c < _domain.num_owned_cells; ++c)
+        for (int c : cells)
         {
           const char* trouble = strain_cell(state, c, z);
           if (not trouble)
-            trouble = answer(medium, c);
+            trouble = answer(answers, c);
           if (trouble)
           {
             why = trouble;
@@ -148,6 +151,21 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
         }
         return -1;
       });
+}
+
+/// What is the same whoever has answered.
+void MeanElement::settle_answer(int c)
+{
+  Cell& cell = _cell[c];
+  // not by p: with friction a lower pressure flows more, which leads Newton
+  // away; steps fail from the first one on
+  cell.answer.dflow_dp = 0;
+  if (not _options.plastic_bubble)
+  {
+    cell.answer.flow = 0;
+    cell.answer.dflow_de.setZero();
+  }
+  cell.s = rotate(cell.answer.s, cell.motion.cosine, cell.motion.sine);
 }
 
 /// What a fluid's bubble remembers: the share of inertia in its stiffness. A
@@ -188,7 +206,7 @@ void MeanElement::gather(const State& state, int c, std::span<const double> z,
   in.ln_J = cell.motion.ln_J;
   in.mu = _G[c];
   in.rho = end_density(state, c);
-  in.memory = _fluid ? inertia_share(c, in.rho, x) : 1;
+  in.memory = medium().fluid() ? inertia_share(c, in.rho, x) : 1;
   in.lam = cell.answer.flow;
   if (_newmark)
     gather_newmark(state, c, in.newmark);
@@ -214,7 +232,7 @@ std::array<double, 6> MeanElement::forces(const State& state, int c,
   CellInput in;
   double x[9], R[11] = {};
   gather(state, c, z, in, x);
-  _R(R, in, constants, x);
+  balance(c).R(R, in, constants, x);
   if (constants.b > 0)
     _inertia.R_damping(R, in, constants, x);
   return {R[0], R[1], R[3], R[4], R[6], R[7]};
@@ -230,8 +248,8 @@ void MeanElement::full(const State& state, int c, std::span<const double> z,
   add_tangent(c, in);
   std::ranges::fill(R11, 0.0);
   std::ranges::fill(J121, 0.0);
-  _R(R11, in, constants, x);
-  _J(J121, in, constants, x);
+  balance(c).R(R11, in, constants, x);
+  balance(c).J(J121, in, constants, x);
   if (_newmark)
   {
     _inertia.R(R11, in, constants, x);
@@ -249,7 +267,7 @@ void MeanElement::residual(const State& state, int c, std::span<const double> z,
   gather(state, c, z, in, x);
   if (constant_strain)
     use_cell_pressure(c, in);
-  _R(R11, in, constants, x);
+  balance(c).R(R11, in, constants, x);
   if (_newmark)
     _inertia.R(R11, in, constants, x);
   if (constants.b > 0)
@@ -259,7 +277,7 @@ void MeanElement::residual(const State& state, int c, std::span<const double> z,
     project_pressure(c, in, R, nullptr);
   if (_options.element != scene::Element::mini)
     return;
-  _B(B, in, constants, x);
+  balance(c).B(B, in, constants, x);
   if (_newmark)
     _inertia.B(B, in, constants, x);
   const Condensation K(B[18], B[19], B[20], B[21]);
@@ -279,7 +297,7 @@ void MeanElement::jacobian(const State& state, int c, std::span<const double> z,
   add_tangent(c, in);
   if (constant_strain)
     use_cell_pressure(c, in);
-  _J(A, in, constants, x);
+  balance(c).J(A, in, constants, x);
   if (_newmark)
     _inertia.J(A, in, constants, x);
   if (constants.b > 0)

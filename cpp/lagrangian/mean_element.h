@@ -10,10 +10,10 @@ namespace mmale::lagrangian
 /// The bubble only stabilises the pressure. It is linear in the residual, so
 /// it is eliminated exactly and has no state: for a residual the two bubble
 /// columns are enough.
-class MeanElement final : public Element
+class MeanElement : public Element
 {
 public:
-  MeanElement(const mesh::Domain& domain, const material::AnyLaw& law,
+  MeanElement(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
               scene::Symmetry symmetry, const scene::Solver& options,
               const std::optional<scene::Water>& water);
 
@@ -41,7 +41,7 @@ public:
   double strain_squared(int cell) const override;
   material::Effort effort(int cell) const override;
 
-private:
+protected:
   struct Cell
   {
     Gradient G;
@@ -51,6 +51,26 @@ private:
     Voigt s;      ///< deviator at the end, turned
     double p;     ///< mean pressure at the end
   };
+  /// The kernels of a cell's balance.
+  struct Balance
+  {
+    Kernel R, J, B;
+  };
+  /// Strains and answers of cells of one material; a cell that fails, or -1.
+  int evaluate_cells(const Medium& medium, std::span<const int> cells,
+                     const State& state, std::span<const double> z, double dt,
+                     std::string& why);
+  const char* strain_cell(const State& state, int cell,
+                          std::span<const double> z);
+  void settle_answer(int cell);
+  double inertia_share(int cell, double rho, const double* x) const;
+  virtual void gather(const State& state, int cell, std::span<const double> z,
+                      CellInput& in, double* x) const;
+  virtual void add_tangent(int cell, CellInput& in) const;
+  virtual const Balance& balance(int) const { return _balance; }
+  void accept_stress(State& state) const override;
+
+private:
   /// What seepage adds.
   struct Flow
   {
@@ -66,13 +86,6 @@ private:
   {
     Kernel R, J, B, R_damping, J_damping;
   };
-  void accept_stress(State& state) const override;
-  const char* strain_cell(const State& state, int cell,
-                          std::span<const double> z);
-  void gather(const State& state, int cell, std::span<const double> z,
-              CellInput& in, double* x) const;
-  double inertia_share(int cell, double rho, const double* x) const;
-  void add_tangent(int cell, CellInput& in) const;
   void use_cell_pressure(int cell, CellInput& in) const;
   void project_pressure(int cell, const CellInput& in, double* R,
                         double* J) const;
@@ -83,9 +96,14 @@ private:
   void measure_flow(int cell, const SeepageInput& in, const double* x,
                     const Constants& c, FlowRow& row) const;
 
-  Kernel _R, _J, _B;
+  Balance _balance;
   Inertia _inertia;
   std::unique_ptr<Flow> _flow; ///< with seepage
+
+protected:
   std::vector<Cell> _cell;
+
+private:
+  std::vector<int> _all; ///< owned cells
 };
 } // namespace mmale::lagrangian

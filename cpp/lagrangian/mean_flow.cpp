@@ -51,14 +51,14 @@ void MeanElement::gather_flow(const State& state, int c,
     in.p_w[v] = _seepage->trial()[n];
     in.p_w_n[v] = state.p_w[n];
     const auto [stored, slope] =
-        _water->stored({in.p_w_n[v], pores.n}, in.p_w[v]);
+        medium().water()->stored({in.p_w_n[v], pores.n}, in.p_w[v]);
     in.stored[v] = stored;
     in.dstored_dp[v] = slope;
   }
   const double c_uniaxial = _flow->compliance[c];
   in.compliance = _flow->consistent ? 0 : lumping * c_uniaxial;
   in.mobility = _flow->mobility;
-  in.share = c_uniaxial / (c_uniaxial + _water->compressibility(pores));
+  in.share = c_uniaxial / (c_uniaxial + medium().water()->compressibility(pores));
   std::fill_n(in.size, 4, 0.0);
   for (int v = 0; v < 3; ++v)
     for (int i = 0; i < 2; ++i)

@@ -12,12 +12,15 @@ namespace mmale::lagrangian
 {
 material::Moduli Problem::moduli(const State& state, double dt) const
 {
-  double sum[3] = {0, 0, static_cast<double>(_domain.num_owned_cells)};
+  double sum[3] = {0, 0, 0};
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
+    if (not _element->present(state, c))
+      continue;
     const auto [G, K] = _element->moduli(state, c, dt);
     sum[0] += G;
     sum[1] += K;
+    sum[2] += 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, _domain.comm);
   return {sum[0] / sum[2], sum[1] / sum[2]};
@@ -83,7 +86,7 @@ std::vector<std::array<double, 2>> Problem::reactions() const
   const double turn =
       _symmetry == scene::Symmetry::axisymmetric ? 2 * std::numbers::pi : 1;
   for (int i = 0; i < 3 * _domain.num_owned_nodes; ++i)
-    if (_holder[i] >= 0 and _holder[i] != by_scheme())
+    if (_holder[i] >= 0 and _holder[i] < by_scheme())
       sum[2 * _holder[i] + i % 3] += turn * force[i];
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()),
                 MPI_DOUBLE, MPI_SUM, _domain.comm);

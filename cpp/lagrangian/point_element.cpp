@@ -44,11 +44,11 @@ struct Forms<6>
 
 template <int n>
 PointElement<n>::PointElement(const mesh::Domain& domain,
-                              const material::AnyLaw& law,
+                              std::span<const material::AnyLaw> laws,
                               scene::Symmetry symmetry,
                               const scene::Solver& options,
                               const std::optional<scene::Water>& water)
-    : Element(domain, law, symmetry, options, water, n),
+    : Element(domain, laws, symmetry, options, water, n),
       _R(Forms<n>::R(_axisymmetric), IntegralKind::cell),
       _J(Forms<n>::J(_axisymmetric), IntegralKind::cell),
       _R_damping(_axisymmetric ? *form_inertia_R_damping_axi
@@ -164,7 +164,7 @@ const char* PointElement<n>::answer(const State& state, int c,
     return trouble;
   const auto kind = tangent_kind();
   std::vector<double> turned(_num_history);
-  const auto update = [&](const auto& medium)
+  const auto update = [&](const auto& answers)
   {
     for (int q = n * c; q < n * (c + 1); ++q)
     {
@@ -173,21 +173,21 @@ const char* PointElement<n>::answer(const State& state, int c,
       const auto at = static_cast<std::size_t>(_num_history) * q;
       const auto history = std::span(_history).subspan(at, _num_history);
       std::copy_n(state.history.begin() + at, _num_history, turned.begin());
-      turn_history(turned, m.cosine, m.sine);
+      medium().turn(turned, m.cosine, m.sine);
       const material::Point start{
           rotate(Voigt(state.s.data() + 4 * q), m.cosine, m.sine), state.P[q],
           turned};
-      if (material::drive(medium(0), start, m.de, point.p, dt, point.guess,
+      if (material::drive(answers(0), start, m.de, point.p, dt, point.guess,
                           kind, history, point.answer)
           != Outcome::ok)
         return "the law asks for a smaller step";
-      turn_history(history, m.cosine, m.sine);
+      medium().turn(history, m.cosine, m.sine);
       point.guess = point.answer.theta;
       point.s = rotate(point.answer.s, m.cosine, m.sine);
     }
     return static_cast<const char*>(nullptr);
   };
-  return with_medium(update);
+  return medium().with(update);
 }
 
 /// The bubble's own equation, by Newton; what is wrong, or null.

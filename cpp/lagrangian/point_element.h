@@ -21,7 +21,7 @@ template <int n>
 class PointElement final : public Element
 {
 public:
-  PointElement(const mesh::Domain& domain, const material::AnyLaw& law,
+  PointElement(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
                scene::Symmetry symmetry, const scene::Solver& options,
                const std::optional<scene::Water>& water);
 

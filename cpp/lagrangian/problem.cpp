@@ -28,11 +28,11 @@ node_map(const mesh::Domain& domain)
 }
 } // namespace
 
-Problem::Problem(const mesh::Domain& domain, const material::AnyLaw& law,
+Problem::Problem(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
                  scene::Symmetry symmetry, const scene::Solver& options,
                  const std::optional<scene::Water>& water, output::Clock& clock)
     : _domain(domain), _symmetry(symmetry), _options(options), _clock(clock),
-      _element(make_element(domain, law, symmetry, options, water)),
+      _element(make_element(domain, laws, symmetry, options, water)),
       _loads(domain, symmetry), _length(mean_edge(domain)),
       _increment(3 * domain.num_nodes(), 0), _z(node_map(domain), 3),
       _force(node_map(domain), 3)
@@ -317,6 +317,7 @@ void Problem::prepare(const State& state, double t0, double t1)
   _state = &state;
   _t0 = t0;
   _t1 = t1;
+  find_void(state);
   const auto g = _conditions->gravity(t1);
   _constants = {};
   _constants.dt = t1 - t0;
@@ -342,6 +343,7 @@ void Problem::hold()
   _conditions->increments(_t0, _t1, _increment);
   std::ranges::copy(_conditions->holder(), _holder.begin());
   _contact->apply(_state->x, _holder, _increment);
+  hold_void();
   if (not _newmark)
     return;
   _newmark->set_lines(*_state);
@@ -351,6 +353,31 @@ void Problem::hold()
     {
       _holder[i] = by_scheme();
       _increment[i] = _newmark->foreseen(*_state, 2 * (i / 3) + i % 3);
+    }
+}
+
+/// Which nodes have only void around them. Collective.
+void Problem::find_void(const State& state)
+{
+  _bears.clear();
+  if (not state.materials)
+    return;
+  _bears.assign(_domain.num_nodes(), 0);
+  for (int c = 0; c < _domain.num_cells(); ++c)
+    if (_element->present(state, c))
+      for (int n : _domain.cells[c])
+        _bears[n] = 1;
+  _domain.node_halo->update(_bears, 1); // a ghost's cells are not all here
+}
+
+/// These nodes leave the system: they stay, and have no pressure.
+void Problem::hold_void()
+{
+  for (int i = 0; i < 3 * _domain.num_nodes(); ++i)
+    if (not bears(i / 3) and _holder[i] < 0)
+    {
+      _holder[i] = by_void();
+      _increment[i] = 0;
     }
 }
 

@@ -41,7 +41,7 @@ struct NewtonLog
 class Problem
 {
 public:
-  Problem(const mesh::Domain& domain, const material::AnyLaw& law,
+  Problem(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
           scene::Symmetry symmetry, const scene::Solver& options,
           const std::optional<scene::Water>& water, output::Clock& clock);
   ~Problem();
@@ -153,10 +153,15 @@ private:
   {
     return static_cast<int>(_domain.boundary_names.size());
   }
+  /// Holder of what has only void around it.
+  int by_void() const { return by_scheme() + 1; }
   /// Changes of the contact set in a step. Doubled: patience with flutter.
   static constexpr int max_contact_changes = 10;
   void prepare(const State& state, double t0, double t1);
   void hold();
+  void find_void(const State& state);
+  void hold_void();
+  bool bears(int node) const { return _bears.empty() or _bears[node] != 0; }
   void start(Start from);
   bool newton(NewtonLog& log);
   bool equilibrium(Start from, NewtonLog& log);
@@ -183,6 +188,8 @@ private:
   double _t0 = 0, _t1 = 0;         ///< of this step
   std::vector<int> _holder;        ///< owned and ghost unknowns
   std::vector<double> _increment;  ///< of held unknowns
+  std::vector<double> _bears; ///< is there more than void around a node? Empty
+                              ///< with one material
   std::vector<double> _motion;     ///< last step's increment, (nodes, 2)
   double _guess_dt = 0;            ///< its step; 0: no guess for the next
   Constants _constants;

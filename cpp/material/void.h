@@ -6,9 +6,10 @@
 
 namespace mmale::material
 {
-/// Nothing, beside other materials: no deviator, and a pressure that falls
-/// with its volume at a stiffness too small to matter, so that p can drive it
-/// like any other. (In mixed cells the closure opens and shuts it.)
+/// Nothing, beside other materials (METHOD.md, Mixed cells): it has a place and
+/// a volume, and never answers for a cell of the solver. By itself, as laws are
+/// tested: no deviator, and a pressure that falls with its volume at a
+/// stiffness too small to matter.
 struct Void
 {
   static constexpr std::string_view name = "void";
@@ -17,23 +18,19 @@ struct Void
 
   double stiffness = 1; ///< [Pa]; doubled, a void of twice its volume pulls
                         ///< with 1.4 Pa for 0.7
-  double density = 0;   ///< [kg/m3]
+  double density = 1e-3; ///< [kg/m3]; a trace, that where void flows in
+                         ///< momentum has something to be carried by
 
   static inline const std::array<Parameter<Void>, 2> parameters{{
       {"stiffness", "Pa", &Void::stiffness, scene::above(0),
        "fall of its pressure over its logarithmic volume strain"},
-      {"density", "kg/m3", &Void::density, scene::at_least(0),
-       "mass density; 0 unless a test asks for more"},
+      {"density", "kg/m3", &Void::density, scene::above(0),
+       "mass density, a trace that carries momentum"},
   }};
 
   std::vector<HistoryField> history() const { return {}; }
   void begin(const Start&, std::span<double>) const {}
-  std::vector<std::string> complaints() const
-  {
-    return {"void is only for cells that it shares with other materials, "
-            "which this version does not have; leave the place out of the "
-            "mesh"};
-  }
+  std::vector<std::string> complaints() const { return {}; }
   double admit(Eigen::Ref<Voigt> s, double&, std::span<double>) const
   {
     const bool any = norm(s) > 0;

@@ -330,13 +330,6 @@ void check_materials(const Scene& scene, const Libraries& libraries,
     out.push_back({"material",
                    "missing: a table [material.NAME] with law and its numbers",
                    {}});
-  if (scene.material.size() > 1 and not scene.motion)
-    out.push_back({"material",
-                   std::format("{} are given; several materials need mixed "
-                               "cells, which are not there yet: give exactly "
-                               "one",
-                               scene.material.size()),
-                   {}});
   for (const auto& [name, material] : scene.material)
     check_material(material, libraries, "material." + name, out);
 }
@@ -457,6 +450,9 @@ void check_remap(const Scene& scene, const Libraries& libraries,
   if (remap.mode != RemapMode::lagrangian)
     one_of("remap.transport", remap.transport, libraries.transports,
            "transport scheme");
+  if (scene.material.size() > 1)
+    one_of("remap.interfaces", remap.interfaces, libraries.interfaces,
+           "reconstruction of interfaces");
   const auto known = outline ? outline->names() : std::vector<std::string>();
   for (const std::string& name : remap.surface)
   {

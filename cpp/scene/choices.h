@@ -16,7 +16,7 @@ concept OneOf = (std::same_as<T, U> or ...);
 
 template <class T>
 concept Enumeration = OneOf<T, Symmetry, Diagonal, Element, Layout, Tangent,
-                            Factorisation, RemapMode>;
+                            Factorisation, VoidRule, RemapMode>;
 
 /// Names of an enumeration, in the order of its values.
 template <Enumeration E>
@@ -51,6 +51,11 @@ const std::vector<std::string>& names()
   else if constexpr (std::same_as<E, Factorisation>)
   {
     static const Names list = {"automatic", "lu", "ldlt"};
+    return list;
+  }
+  else if constexpr (std::same_as<E, VoidRule>)
+  {
+    static const Names list = {"by_bodies", "surface", "closing"};
     return list;
   }
   else

@@ -70,6 +70,8 @@ struct LawInfo
 struct Libraries
 {
   std::vector<LawInfo> laws = {};
+  std::vector<std::string> closures = {};
+  std::vector<std::string> interfaces = {};
   std::vector<std::string> smoothers = {};
   std::vector<std::string> transports = {};
 

@@ -233,6 +233,14 @@ enum class Factorisation
        ///< costs iterations, never accuracy
 };
 
+/// What void is to the materials that share a cell with it.
+enum class VoidRule
+{
+  by_bodies, ///< beside one body its free surface, between two a gap
+  surface,   ///< always a free surface, integrated where it lies
+  closing    ///< always a gap: nothing bears load before it is closed
+};
+
 /// Knobs of the Lagrangian step.
 struct Solver
 {
@@ -247,6 +255,9 @@ struct Solver
   int lag_jacobian = 0; ///< matrix and factor are made every n-th iteration; 0:
                         ///< but where one more with the last one will do
   bool line_search = true;
+  // of cells that several materials share
+  std::string closure = "equal_pressure"; ///< name in the library's list
+  VoidRule void_rule = VoidRule::by_bodies;
   bool plastic_bubble = true;  ///< METHOD.md, form P; off: noisier pressure
   double bubble_spring = 0.05; ///< of layout `quadrature`, METHOD.md; 0: steps
                                ///< fail in plastic flow after remaps
@@ -273,6 +284,8 @@ struct Remap
   double max_loss = 0.5;   ///< share of a cell that may leave in a sub-cycle
   double max_turnover = 0; ///< and in a remap, where nodes go only part of
                            ///< their way rather than more; 0: no limit
+  std::string interfaces = "moment_of_fluid"; ///< of materials in a cell, name
+                                              ///< in the library's list
   std::vector<std::string> surface; ///< boundaries that are free surfaces
   std::vector<std::string> open;    ///< boundaries through which fields pass
 };

@@ -308,6 +308,13 @@ void keys(V& v, Solver& s)
      at_least(0)},
     s.lag_jacobian);
   v({"line_search", "", "Line search in Newton's method."}, s.line_search);
+  v({"closure", "",
+     "What materials that share a cell have in common besides velocity."},
+    s.closure);
+  v({"void_rule", "",
+     "Void in a cell: a free surface, a gap that closes before load passes, or "
+     "by_bodies, a gap where it lies between two."},
+    s.void_rule);
   v({"plastic_bubble", "",
      "The bubble softens as the cell yields; off gives a noisier pressure."},
     s.plastic_bubble);
@@ -342,6 +349,8 @@ void keys(V& v, Remap& r)
     r.target);
   v({"sweeps", "-", "Sweeps of the smoother.", at_least(1)}, r.sweeps);
   v({"transport", "", "Name of the transport scheme."}, r.transport);
+  v({"interfaces", "", "How interfaces between materials are found."},
+    r.interfaces);
   v({"max_loss", "-", "Share of a cell that may leave in one sub-cycle.",
      between(0, 1)},
     r.max_loss);

@@ -87,6 +87,11 @@ public:
         std::upper_bound(_first.begin(), _first.end(), slot - num_cells());
     return _mixed[static_cast<std::size_t>(behind - _first.begin()) - 1];
   }
+  /// Material whose values stand at a slot; -1: that of a mixed cell.
+  [[nodiscard]] std::int32_t material(std::int32_t slot) const
+  {
+    return slot < num_cells() ? pure(slot) : part(slot).material;
+  }
   /// Number of slots: cells and parts.
   [[nodiscard]] std::int32_t num_slots() const
   {

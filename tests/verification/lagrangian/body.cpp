@@ -16,7 +16,7 @@ struct Body::Parts
 {
   explicit Parts(scene::Scene s)
       : scene(std::move(s)), sim(MPI_COMM_SELF, scene),
-        element(lagrangian::make_element(sim.domain, *sim.law, scene.symmetry,
+        element(lagrangian::make_element(sim.domain, sim.laws, scene.symmetry,
                                          scene.solver, scene.water))
   {
     constants.spring = scene.solver.bubble_spring;
