@@ -352,6 +352,26 @@ output::Ledger Monitor::ledger() const
                    .end = integral(_sim.state.density),
                    .through_surface = turn * passed.mass.through,
                    .booked = _seeped + turn * passed.mass.at_walls});
+  for (std::int32_t k = 0;
+       const auto& [name, material] : _sim.scene.material)
+  {
+    if (not _sim.state.materials)
+      break;
+    const auto [volume, mass] = amount(k);
+    const auto& [v, m] = std::pair(passed.material_volume[name],
+                                   passed.material_mass[name]);
+    out.push_back({.name = name + "_volume",
+                   .unit = "m3" + per,
+                   .end = volume,
+                   .through_surface = turn * v.through,
+                   .booked = turn * v.at_walls});
+    out.push_back({.name = name + "_mass",
+                   .unit = "kg" + per,
+                   .end = mass,
+                   .through_surface = turn * m.through,
+                   .booked = turn * m.at_walls});
+    ++k;
+  }
   for (const auto& [name, values] : _sim.state.tracer)
     out.push_back({.name = name,
                    .unit = "m3" + per,

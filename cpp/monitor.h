@@ -59,6 +59,8 @@ private:
   std::vector<double> corner_mean(std::span<const double> cells) const;
   bool has_void_ratio() const;
   std::vector<double> grain_gap() const;
+  void add_material_fields(std::vector<output::NamedField>& out);
+  std::array<double, 2> amount(std::int32_t material) const;
   void add_water_fields(std::vector<output::NamedField>& out);
   double boundary_mean(int boundary, std::span<const double> nodal, int size,
                        int component) const;
@@ -82,6 +84,7 @@ private:
   double _seeped = 0;               ///< mass of water that flowed in
   double _lagrangian_volume = 0;    ///< change by the material's own motion
   std::vector<double> _derived[4];  ///< von Mises, stress, history, grain gap
+  std::vector<std::vector<double>> _of_materials;
   std::vector<double> _of_water[4]; ///< p_w, porosity, effective stress and
                                     ///< pressure
 };

@@ -50,7 +50,7 @@ bool Monitor::has_void_ratio() const
 /// Element::grain_gap of all cells, ghosts too.
 std::vector<double> Monitor::grain_gap() const
 {
-  std::vector<double> out(_sim.state.density.size());
+  std::vector<double> out(_sim.domain.num_cells());
   for (std::size_t c = 0; c < out.size(); ++c)
     out[c] = _sim.problem->element().grain_gap(_sim.state, static_cast<int>(c));
   return out;
@@ -89,6 +89,8 @@ std::vector<double> Monitor::cell_mean(std::span<const double> v,
                                        std::size_t size) const
 {
   const std::size_t points = _sim.state.points;
+  // with several materials rows of parts follow
+  v = v.first(size * points * _sim.domain.num_cells());
   std::vector<double> out(v.size() / points, 0);
   for (std::size_t i = 0; i < v.size(); ++i)
     out[i / (size * points) * size + i % size] += v[i] / points;
@@ -116,7 +118,7 @@ std::vector<output::NamedField> Monitor::fields()
     out.push_back({name, Location::cell, 1, values, ""});
   if (_sim.laws.empty())
     return out;
-  const std::size_t cells = state.density.size();
+  const std::size_t cells = _sim.domain.num_cells();
   auto& [mises, stress, history, gap] = _derived;
   stress = cell_stress();
   mises.resize(cells);
@@ -129,9 +131,15 @@ std::vector<output::NamedField> Monitor::fields()
   out.push_back({"pressure", Location::nodal, 1, state.p, "Pa"});
   out.push_back({"von_mises", Location::cell, 1, mises, "Pa"});
   out.push_back({"stress", Location::cell, 4, stress, "Pa"});
-  out.push_back({"density", Location::cell, 1, state.density, "kg/m3"});
+  out.push_back({"density", Location::cell, 1,
+                 std::span(state.density).first(cells), "kg/m3"});
   if (not state.apex.empty())
     out.push_back({"apex", Location::cell, 1, state.apex, ""});
+  if (state.materials)
+  {
+    add_material_fields(out);
+    return out;
+  }
   // history numbers come apart, one field each
   const auto names =
       material::history_names(_sim.laws.front(), _sim.scene.water.has_value());

@@ -70,34 +70,36 @@ def whole(f):
     return f
 
 
-def residual(axisymmetric, fill=1, at=whole, at_mass=whole):
+def residual(axisymmetric, fill=1, at=whole, weight=None, kept=1):
     """Virtual work of all forces on the three test functions.
 
     In cells of several materials (mixed.py) `fill` is the share of the volume that
-    bears load, `at` its middle, `at_mass` that of the mass; s and rho are means over
-    the whole cell, mu is that of what bears load.
+    bears load, `at` its middle; s is a mean over the whole cell, mu and rho are those
+    of what bears load, and `weight` is that of the whole. `kept` of the bubble counts.
     """
     r = x[0] if axisymmetric else 1
     u, p, u_b = split(ufl.split(w))
     _, p_n, _ = split(ufl.split(w_n))
     v, q, v_b = split(TestFunctions(W))
     h, h_b, e_b = (gradient(z, r, axisymmetric) for z in (v, v_b, u_b))
-    momentum = inner(s, h) - fill * at(p) * divergence(h) - rho * dot(g, at_mass(v))
+    weighs = weight(v) if weight else rho * dot(g, v)
+    momentum = inner(s, h) - fill * at(p) * divergence(h) - weighs
     volume = fill * at(q) * (theta - ln_J)
     drive = p - memory * p_n + lam * p
     force = rho * (g - memory * g_n + lam * g)
-    stabilise = fill * (
+    stabilise = kept * (
         2 * mu * inner(deviator(strain(e_b)), strain(h_b))
         - drive * divergence(h_b)
+        - dot(force, v_b)
         - q * divergence(e_b)
-    ) - dot(force, v_b)
+    )
     return (momentum + volume) * r * dx + stabilise * r * dx_bubble
 
 
-def tangent(axisymmetric, fill=1, at=whole, at_mass=whole):
+def tangent(axisymmetric, fill=1, at=whole, weight=None, kept=1):
     """Derivative of the residual by u, p and the bubble."""
     r = x[0] if axisymmetric else 1
-    R = residual(axisymmetric, fill, at, at_mass)
+    R = residual(axisymmetric, fill, at, weight, kept)
     du, dp, _ = split(TrialFunctions(W))
     dh = gradient(du, r, axisymmetric)
     dtheta = dot(dtheta_dh, dh) + dtheta_dp * at(dp)
@@ -110,11 +112,12 @@ def tangent(axisymmetric, fill=1, at=whole, at_mass=whole):
     )
 
 
-def bubble_columns(axisymmetric, fill=1, at=whole, at_mass=whole):
+def bubble_columns(axisymmetric, fill=1, at=whole, weight=None, kept=1):
     """The tangent's last two columns, all that a residual alone needs."""
     u_b = TrialFunction(B)
     direction = as_vector((0, 0, 0, u_b[0], u_b[1]))
-    return derivative(residual(axisymmetric, fill, at, at_mass), w, direction)
+    R = residual(axisymmetric, fill, at, weight, kept)
+    return derivative(R, w, direction)
 
 
 R_plane, J_plane, B_plane = (f(False) for f in (residual, tangent, bubble_columns))

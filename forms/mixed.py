@@ -4,7 +4,8 @@
 Void bears nothing: p and q count where the rest of the cell has its middle, and so
 do weight and mass where the mass has its own. A free surface within a cell is then
 where it is: a fluid at rest under p = rho g depth is in balance wherever its surface
-cuts the cells.
+cuts the cells. The bubble is that of a full cell: it holds ∇p to ρ (g - a) at nodes in
+the void, of which a small piece of a body knows little.
 """
 
 from balance import (  # noqa: F401; FFCx finds coefficients by their names here
@@ -36,6 +37,8 @@ from ufl import Coefficient, dot, grad
 fill = Coefficient(per_cell())  # share of the volume that bears load [-]
 offset = Coefficient(per_cell(2))  # of its middle from the cell's [m]
 mass_offset = Coefficient(per_cell(2))  # of the mass's [m]
+mean_rho = Coefficient(per_cell())  # density of the whole cell [kg/m3]
+kept = Coefficient(per_cell())  # 1, or next to 0 where nothing bears load [-]
 
 
 def at(f):
@@ -43,12 +46,12 @@ def at(f):
     return f + dot(grad(f), offset)
 
 
-def at_mass(f):
-    """A linear vector in the middle of the mass."""
-    return f + dot(grad(f), mass_offset)
+def weight(v):
+    """Work of the weight, in the middle of the mass."""
+    return mean_rho * dot(g, v + dot(grad(v), mass_offset))
 
 
-shared = (fill, at, at_mass)
+shared = (fill, at, weight, kept)
 R_plane, J_plane, B_plane = (
     f(False, *shared) for f in (residual, tangent, bubble_columns)
 )

@@ -116,8 +116,8 @@ public:
   /// the order of the step's strain and of stress over stiffness.
   virtual bool symmetric() const;
 
-  /// Does the law's deviator have no memory?
-  bool fluid() const { return _fluid; }
+  /// Has no material's deviator a memory?
+  bool fluid() const;
 
   /// Has a law a zero-stress floor? Then it is counted where it acts.
   bool has_floor() const;

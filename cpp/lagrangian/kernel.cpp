@@ -30,6 +30,8 @@ std::vector<Offer> offers(const CellInput*)
           {"mu", offsetof(CellInput, mu), 1},
           {"memory", offsetof(CellInput, memory), 1},
           {"fill", offsetof(CellInput, fill), 1},
+          {"kept", offsetof(CellInput, kept), 1},
+          {"mean_rho", offsetof(CellInput, mean_rho), 1},
           {"offset", offsetof(CellInput, offset), 2},
           {"mass_offset", offsetof(CellInput, mass_offset), 2},
           {"lam", offsetof(CellInput, lam), 1},

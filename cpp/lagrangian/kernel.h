@@ -33,7 +33,7 @@ struct CellInput
   double dlam_dh[5];
   double dlam_dp;
   // of cells of several materials, forms/mixed.py
-  double fill;
+  double fill, kept, mean_rho;
   double offset[2], mass_offset[2];
   NewmarkInput newmark;
 };

@@ -79,7 +79,7 @@ double Problem::imbalance(const State& state, double dt)
   return weight > 0 ? worst / weight : _norm_u;
 }
 
-std::vector<std::array<double, 2>> Problem::reactions() const
+std::vector<std::array<double, 2>> Problem::sum_reactions() const
 {
   std::vector<double> sum(2 * _domain.boundary_names.size(), 0);
   const auto force = _force.array();

@@ -197,7 +197,7 @@ void Problem::assemble_residual(double* r)
     row = pressure ? weight * force[i] / _length : force[i] / _stress;
     if (_holder[i] >= 0)
     {
-      row = z[i] - _increment[i];
+      row = (z[i] - _increment[i]) * (pressure ? _length / _stress : 1);
       norm[2] += row * row;
       size[2] += _increment[i] * _increment[i];
     }
@@ -467,6 +467,7 @@ bool Problem::solve(State& state, double t0, double t1, NewtonLog& log)
     std::ranges::copy(_pore_pressure->trial(), state.p_w.begin());
   if (_newmark)
     finish_newmark(state);
+  _reactions = sum_reactions();
   _motion.resize(2 * static_cast<std::size_t>(_domain.num_nodes()));
   for (std::size_t i = 0; i < _motion.size(); ++i)
     _motion[i] = _z.array()[3 * (i / 2) + i % 2];

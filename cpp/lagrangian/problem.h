@@ -80,7 +80,10 @@ public:
 
   /// Force of each named boundary on the body, (x, y); per unit thickness, or
   /// of the whole circumference [N/m or N]. Of the last solve. Collective.
-  std::vector<std::array<double, 2>> reactions() const;
+  const std::vector<std::array<double, 2>>& reactions() const
+  {
+    return _reactions;
+  }
 
   /// Water that left through each named boundary in the last step, over its
   /// length; none without seepage. Collective.
@@ -141,6 +144,7 @@ private:
   void agree_on_failure(int cell, const std::string& why);
   void name_worst(NewtonLog& log);
   int cell_at(int node) const;
+  std::vector<std::array<double, 2>> sum_reactions() const;
 
   /// Where Newton starts from.
   enum class Start
@@ -191,6 +195,7 @@ private:
   std::vector<double> _bears; ///< is there more than void around a node? Empty
                               ///< with one material
   std::vector<double> _motion;     ///< last step's increment, (nodes, 2)
+  std::vector<std::array<double, 2>> _reactions; ///< of the last solve
   double _guess_dt = 0;            ///< its step; 0: no guess for the next
   Constants _constants;
   std::array<double, 2> _gravity = {0, 0}; ///< at the end of the last step

@@ -70,10 +70,10 @@ struct LawInfo
 struct Libraries
 {
   std::vector<LawInfo> laws = {};
-  std::vector<std::string> closures = {};
-  std::vector<std::string> interfaces = {};
   std::vector<std::string> smoothers = {};
   std::vector<std::string> transports = {};
+  std::vector<std::string> closures = {};
+  std::vector<std::string> interfaces = {};
 
   /// Fields that pictures can show, tracers aside; empty: not checked.
   std::vector<std::string> fields = {};
