@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mixed_element.h"
 
+#include "mesh/corners.h"
 #include "mixed.h"
 #include "mixture.h"
 #include <algorithm>
@@ -117,6 +118,8 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
           and (_rule == scene::VoidRule::closing
                or (_rule == scene::VoidRule::by_bodies and bodies > 1));
   m.fill = with_void and not m.gap ? fill : 1;
+  m.bodies = fill;
+  m.spray = with_void and fill < _options.spray_below;
   for (int v = 0; v < 3; ++v)
   {
     m.mass_centre[v] = mass > 0 ? m.mass_centre[v] / mass : 1. / 3;
@@ -260,7 +263,9 @@ const char* MixedElement::answer_mixture(const State& state, int c,
   };
   material::Mixed mixed;
   double bearing = m.fill; // the part of the cell that s is a mean over
-  m.open = false;
+  m.open = m.spray;
+  if (m.spray)
+    return answer_spray(state, c);
   if (m.gap)
   {
     double filled = 0;
@@ -303,6 +308,31 @@ const char* MixedElement::answer_mixture(const State& state, int c,
     *mean *= bearing;
   cell.answer.ds_de *= bearing;
   cell.p = m.open ? 0 : m.fill * p;
+  settle_answer(c);
+  return nullptr;
+}
+
+/// Pieces too small for a cell to tell what they bear fly on as they are.
+const char* MixedElement::answer_spray(const State& state, int c)
+{
+  Cell& cell = _cell[c];
+  const Mixture& m = _mixture[_of_cell[c]];
+  const Materials& materials = *state.materials;
+  const std::size_t h = _num_history, cells = materials.num_cells();
+  std::size_t slot = materials.first_slot(m.row);
+  for (const Part& part : materials.parts(m.row))
+  {
+    const std::size_t i = slot - cells;
+    _part[i] = {Voigt::Zero(), 0, 0, nan};
+    const auto q = std::span(_part_history).subspan(h * i, h);
+    std::copy_n(state.history.begin() + h * slot, h, q.begin());
+    const Medium& medium = _media[part.material];
+    for (int half = 0; half < 2 and not medium.is_void(); ++half)
+      medium.turn(q, cell.motion.cosine, cell.motion.sine);
+    ++slot;
+  }
+  cell.answer = {};
+  cell.p = 0;
   settle_answer(c);
   return nullptr;
 }
@@ -367,6 +397,32 @@ void MixedElement::residual(const State& state, int c,
     std::fill_n(R, 9, 0.0);
   else
     MeanElement::residual(state, c, z, constants, R);
+  if (const double k = ersatz(state, c); k > 0)
+    for (int v = 0; v < 3; ++v)
+      for (int d = 0; d < 2; ++d)
+      {
+        const auto u = [&](int i)
+        { return z[3 * _domain.cells[c][(v + i) % 3] + d]; };
+        R[3 * v + d] += k * (2 * u(0) - u(1) - u(2));
+      }
+}
+
+/// Stiffness of the springs between the nodes of a cell that is in part void:
+/// they hold nodes that have next to nothing of a body [N/m2 or N/(m rad)].
+double MixedElement::ersatz(const State& state, int c) const
+{
+  if (_of_cell[c] < 0)
+    return 0;
+  const Mixture& m = _mixture[_of_cell[c]];
+  if (m.bodies == 1)
+    return 0;
+  const double rho = state.density[c] / m.bodies;
+  const double V = mesh::cell_volume(_domain, state.x, c, _axisymmetric);
+  const double A =
+      _axisymmetric ? mesh::cell_volume(_domain, state.x, c, false) : V;
+  const double inertia = _newmark ? rho * _newmark->c_a * V : 0;
+  return (1 - m.bodies) * _options.ersatz_stiffness
+         * (_G[c] * V / A + inertia);
 }
 
 void MixedElement::jacobian(const State& state, int c,
@@ -377,6 +433,10 @@ void MixedElement::jacobian(const State& state, int c,
     std::fill_n(J, 81, 0.0);
   else
     MeanElement::jacobian(state, c, z, constants, J);
+  if (const double k = ersatz(state, c); k > 0)
+    for (int i = 0; i < 9; ++i)
+      for (int j = i % 3; i % 3 != 2 and j < 9; j += 3)
+        J[9 * i + j] += i == j ? 2 * k : -k;
 }
 
 std::array<double, 6> MixedElement::forces(const State& state, int c,

@@ -42,6 +42,8 @@ private:
   {
     int row = 0;     ///< of the state's materials
     double fill = 1; ///< of the cell's volume, by what bears load
+    double bodies = 1;          ///< of it, by all that is not void
+    bool spray = false;         ///< too little of bodies to bear anything
     bool gap = false;         ///< void between two bodies
     bool open = false;        ///< in this trial state
     double centre[3] = {}; ///< of what bears load: shares of the vertices
@@ -59,6 +61,8 @@ private:
   void find_mixture(const State& state, int cell, Mixture& m) const;
   const char* answer_mixture(const State& state, int cell,
                              std::span<const double> z, double dt);
+  double ersatz(const State& state, int cell) const;
+  const char* answer_spray(const State& state, int cell);
   void fill_shares(const State& state, const Mixture& m, const Motion& motion);
   bool is_void(int material) const { return _media[material].is_void(); }
   void add_tangent(int cell, CellInput& in) const override;

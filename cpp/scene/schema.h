@@ -315,6 +315,14 @@ void keys(V& v, Solver& s)
      "Void in a cell: a free surface, a gap that closes before load passes, or "
      "by_bodies, a gap where it lies between two."},
     s.void_rule);
+  v({"spray_below", "-",
+     "Cells with less than this of bodies beside void bear nothing.",
+     {0, 1, false, true}},
+    s.spray_below);
+  v({"ersatz_stiffness", "-",
+     "Stiffness that holds nodes next to the void, over the body's there.",
+     at_least(0)},
+    s.ersatz_stiffness);
   v({"plastic_bubble", "",
      "The bubble softens as the cell yields; off gives a noisier pressure."},
     s.plastic_bubble);
