@@ -3,6 +3,15 @@
 
 #include "state.h"
 
+namespace mmale::output
+{
+class Archive;
+}
+namespace mmale::mesh
+{
+struct Domain;
+}
+
 /// Rows of mixed cells in a state with several materials: what a cell is as a
 /// whole, for those who look at cells alone (mass, energy, pictures).
 namespace mmale::mixture
@@ -13,4 +22,8 @@ void fill(State& state);
 
 /// All zero, as the remap library wants them.
 void clear(State& state);
+
+/// Materials and the arrays over their slots, to a checkpoint or from it.
+/// Collective.
+void keep(output::Archive& archive, const mesh::Domain& domain, State& state);
 } // namespace mmale::mixture

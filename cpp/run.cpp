@@ -4,6 +4,7 @@
 #include "drainage.h"
 #include "initial.h"
 #include "lay.h"
+#include "mixture.h"
 #include "monitor.h"
 #include "output/archive.h"
 #include "output/checkpoint.h"
@@ -209,9 +210,15 @@ void Run::keep(output::Archive& archive)
   archive("state/internal_work", work.internal);
   archive("state/external_work", work.external);
   archive("state/remap_work", work.remap);
+  const bool several = _sim.state.materials.has_value();
+  if (several)
+    mixture::keep(archive, _sim.domain, _sim.state);
   for_each_field(_sim.state,
                  [&](const std::string& name, Entity entity, auto& values)
-                 { archive("state/" + name, entity, values); });
+                 {
+                   if (entity != Entity::slot or not several)
+                     archive("state/" + name, entity, values);
+                 });
   if (_sim.problem)
     _sim.problem->keep(archive);
   if (_sim.remap)

@@ -62,7 +62,8 @@ struct State
 enum class Entity
 {
   node,
-  cell
+  cell,
+  slot ///< a cell, and behind all cells a part of one (`State::materials`)
 };
 
 /// Names every array of a state once: what is not named here does not live
@@ -78,10 +79,10 @@ void for_each_field(S& state, Visit&& visit)
   visit("p", Entity::node, state.p);
   visit("p_w", Entity::node, state.p_w);
   visit("v", Entity::node, state.v);
-  visit("s", Entity::cell, state.s);
-  visit("P", Entity::cell, state.P);
-  visit("density", Entity::cell, state.density);
-  visit("history", Entity::cell, state.history);
+  visit("s", Entity::slot, state.s);
+  visit("P", Entity::slot, state.P);
+  visit("density", Entity::slot, state.density);
+  visit("history", Entity::slot, state.history);
   visit("apex", Entity::cell, state.apex);
   visit("a", Entity::node, state.a);
   visit("force", Entity::node, state.force);

@@ -20,14 +20,25 @@ double value(Conserved what, double kept)
 }
 } // namespace
 
-HistoryFields::HistoryFields(std::span<const material::AnyLaw> laws, bool water)
+HistoryFields::HistoryFields(std::span<const material::AnyLaw> laws, bool water,
+                             std::span<const int> inflow)
 {
   for (std::size_t k = 0; k < laws.size(); ++k)
   {
     std::vector<std::uint8_t> alone(laws.size(), 0);
     alone[k] = 1;
+    std::vector<double> start(material::num_history(laws[k], water));
+    std::visit([&](const auto& l) { l.begin({}, start); }, laws[k]);
     const auto add = [&](int at, int size, Conserved what)
-    { _parts.push_back({at, size, what, static_cast<int>(k), alone, {}}); };
+    {
+      Part& part = _parts.emplace_back(at, size, what, static_cast<int>(k));
+      part.carriers = alone;
+      for (const int material : inflow)
+        for (int i = 0; i < size; ++i)
+          part.inflow.push_back(material == static_cast<int>(k)
+                                    ? conserved(what, start[at + i])
+                                    : 0);
+    };
     int at = 0;
     for (const material::HistoryField& field :
          std::visit([](const auto& l) { return l.history(); }, laws[k]))
@@ -79,6 +90,7 @@ void HistoryFields::add_to(std::vector<::remap::MaterialField>& fields)
   {
     ::remap::MaterialField field{.values = part.values,
                                  .components = part.size,
+                                 .inflow = part.inflow,
                                  .carriers = part.carriers};
     if (part.size == 4)
     {

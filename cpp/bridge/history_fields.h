@@ -19,7 +19,10 @@ class HistoryFields
 {
 public:
   /// @param[in] water are the last numbers those of `material::Water`?
-  HistoryFields(std::span<const material::AnyLaw> laws, bool water);
+  /// @param[in] inflow material that comes in over each boundary, or -1; as at
+  ///                   the start of a run
+  HistoryFields(std::span<const material::AnyLaw> laws, bool water,
+                std::span<const int> inflow = {});
 
   /// Numbers of a point: the most of any law.
   int numbers() const { return static_cast<int>(_numbers); }
@@ -50,6 +53,7 @@ private:
     material::Conserved conserved = material::Conserved::value;
     int material = 0;
     std::vector<std::uint8_t> carriers = {}; ///< this material alone
+    std::vector<double> inflow = {};         ///< shape (boundaries, size)
     std::vector<double> values = {};         ///< shape (points, size)
   };
   std::vector<Part> _parts;

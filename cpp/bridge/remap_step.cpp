@@ -74,6 +74,25 @@ using Nodes = std::array<int, 3>;
              : ::remap::Geometry::plane;
 }
 
+/// Number of the material that flows in over a boundary, or -1.
+int inflow(const scene::Scene& scene, const std::string& boundary)
+{
+  const auto table = scene.boundary.find(boundary);
+  if (table == scene.boundary.end() or table->second.inflow.empty())
+    return -1;
+  return static_cast<int>(std::distance(
+      scene.material.begin(), scene.material.find(table->second.inflow)));
+}
+
+/// Likewise of every boundary.
+std::vector<int> inflows(const scene::Scene& scene, const mesh::Domain& domain)
+{
+  std::vector<int> out;
+  for (const std::string& name : domain.boundary_names)
+    out.push_back(inflow(scene, name));
+  return out;
+}
+
 bool among(const std::vector<std::string>& list, const std::string& name)
 {
   return std::ranges::find(list, name) != list.end();
@@ -94,7 +113,8 @@ bool among(const std::vector<std::string>& list, const std::string& name)
   o.max_loss = scene.remap.max_loss;
   for (const std::string& name : domain.boundary_names)
     o.boundaries.push_back(
-        among(scene.remap.open, name)      ? ::remap::Boundary::open
+        among(scene.remap.open, name) or inflow(scene, name) >= 0
+            ? ::remap::Boundary::open
         : among(scene.remap.surface, name) ? ::remap::Boundary::free_surface
                                            : ::remap::Boundary::closed);
   o.points = points;
@@ -107,6 +127,8 @@ bool among(const std::vector<std::string>& list, const std::string& name)
   {
     o.materials.number = static_cast<int>(laws.size());
     o.materials.components = 4;
+    for (const std::string& name : domain.boundary_names)
+      o.materials.inflow.push_back(std::max(0, inflow(scene, name)));
     // the library's own has settings that suit transport
     if (scene.remap.interfaces != "moment_of_fluid")
       o.materials.reconstruction =
@@ -166,6 +188,7 @@ struct RemapStep::Impl
   bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void add_stress(State& state, std::vector<::remap::Field>& fields);
+  std::vector<double> boundary_velocity(const State& state) const;
   void add_materials(State& state, std::vector<::remap::MaterialField>& fields);
   void make_admissible(State& state, RemapLog& log);
   bool several() const { return laws.size() > 1; }
@@ -187,6 +210,12 @@ struct RemapStep::Impl
   std::optional<::remap::PointMesh> points; // with layout `quadrature`
   ::remap::Remapper remapper;
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
+  std::vector<double> inflow_density; // by boundary
+  std::vector<double> unstressed;     // likewise, four numbers each
+  std::span<const double> nothing() const
+  {
+    return std::span(unstressed).first(domain.boundary_names.size());
+  }
   std::vector<std::uint8_t> solid; // materials with a stress: not the void
   ::remap::Ledger ledger;
 
@@ -216,7 +245,7 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
                       output::Clock& clock)
     : domain(domain), scene(scene), laws(laws), clock(clock),
       host(make_host(domain)), mesh(make_mesh(domain)),
-      travelling(laws, scene.water.has_value()),
+      travelling(laws, scene.water.has_value(), inflows(scene, domain)),
       points(make_points(domain, scene, laws, mesh)),
       remapper(mesh,
                transport_options(domain, scene, laws, travelling.numbers(),
@@ -224,6 +253,16 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
 {
   for (const material::AnyLaw& law : laws)
     solid.push_back(not std::holds_alternative<material::Void>(law));
+  for (const std::string& name : domain.boundary_names)
+  {
+    const int k = several() ? inflow(scene, name) : -1;
+    inflow_density.push_back(
+        k < 0 ? 0
+              : std::visit([](const auto& l)
+                           { return material::initial_density(l, {}); },
+                           laws[k]));
+  }
+  unstressed.assign(4 * domain.boundary_names.size(), 0);
   if (scene.remap.mode != scene::RemapMode::ale)
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
@@ -328,16 +367,42 @@ void RemapStep::Impl::add_materials(State& state,
 {
   static constexpr double metric[] = {1, 1, 1, 2}; // xx, yy, zz, xy
   mixture::clear(state);
-  fields.push_back({.values = state.density});
+  fields.push_back({.values = state.density, .inflow = inflow_density});
   fields.push_back({.values = state.s,
                     .components = 4,
                     .group = 4,
                     .bound = ::remap::Bound::ball,
                     .weights = metric,
+                    .inflow = unstressed,
                     .carriers = solid});
-  fields.push_back({.values = state.P, .carriers = solid});
+  fields.push_back(
+      {.values = state.P,
+       .inflow = nothing(),
+       .carriers = solid});
   travelling.take(state.history, &*state.materials);
   travelling.add_to(fields);
+}
+
+/// Mean velocity of each boundary's nodes: what flows in comes with it.
+/// Collective.
+std::vector<double> RemapStep::Impl::boundary_velocity(const State& state) const
+{
+  const auto boundaries = static_cast<int>(domain.boundary_names.size());
+  std::vector<double> sum(3 * boundaries, 0);
+  for (int b = 0; b < boundaries; ++b)
+    for (int n : domain.boundary_nodes(b))
+      if (n < domain.num_owned_nodes)
+      {
+        sum[3 * b] += state.v[2 * n];
+        sum[3 * b + 1] += state.v[2 * n + 1];
+        sum[3 * b + 2] += 1;
+      }
+  host.sum(sum);
+  std::vector<double> mean;
+  for (int b = 0; b < boundaries; ++b)
+    for (int d = 0; d < 2; ++d)
+      mean.push_back(sum[3 * b + d] / std::max(1.0, sum[3 * b + 2]));
+  return mean;
 }
 
 bool RemapStep::Impl::transport(State& state, std::span<const double> x,
@@ -348,6 +413,7 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
   std::vector<::remap::Field> cells, nodes, at_points, per_mass;
   std::vector<::remap::MaterialField> of_materials;
   std::vector<std::vector<double>> inflow;
+  std::vector<double> velocity; // of what flows in, by boundary
   inflow.reserve(state.tracer.size());
   if (not laws.empty())
   {
@@ -358,15 +424,19 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
       cells.push_back({.values = state.density});
       add_stress(state, points ? at_points : cells);
     }
-    nodes.push_back({.values = state.p});
+    nodes.push_back({.values = state.p, .inflow = nothing()});
     if (not state.p_w.empty())
       nodes.push_back({.values = state.p_w});
   }
   if (not state.a.empty())
   {
-    per_mass.push_back({.values = state.v, .components = 2, .group = 2});
+    velocity = boundary_velocity(state);
+    per_mass.push_back({.values = state.v,
+                        .components = 2,
+                        .group = 2,
+                        .inflow = velocity});
     if (not state.p_rate.empty())
-      nodes.push_back({.values = state.p_rate});
+      nodes.push_back({.values = state.p_rate, .inflow = nothing()});
   }
   for (auto& [name, values] : state.tracer)
   {

@@ -83,6 +83,8 @@ struct Boundary
   std::string side;        ///< left | right | bottom | top
   double from = -infinity; ///< [m]
   double to = infinity;    ///< [m]
+  std::string inflow;      ///< material that comes in where remaps leave the
+                           ///< boundary behind; none: nothing passes
 };
 
 /// A law by name and its numbers, texts and lists as written; the law's own

@@ -115,6 +115,9 @@ void keys(V& v, Boundary& b)
     b.from);
   v({"to", "m", "Its end along the side; default the side's.", unbounded()},
     b.to);
+  v({"inflow", "",
+     "Material that comes in over it with the velocity that is prescribed."},
+    b.inflow);
 }
 
 template <class V>
