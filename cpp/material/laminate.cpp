@@ -6,8 +6,9 @@
 //
 //     de + theta' I / 3 + phi_B N a,    de + theta' I / 3 - phi_A N a,
 //
-// N a = sym(a x n). They leave the traction N^T (sigma_A - sigma_B) = 0 and
-// the pressure w_A p_A + w_B p_B = p, w the volumes at the end.
+// N a = sym(a x n), a by its parts along the normal and across. They leave the
+// traction N^T (sigma_A - sigma_B) = 0 and the pressure w_A p_A + w_B p_B = p,
+// w the volumes at the end.
 #include "closure.h"
 #include "parallel.h"
 
@@ -22,7 +23,7 @@ namespace
 using Six = Eigen::Vector<double, 6>;
 using Jump = Eigen::Matrix<double, 4, 2>;
 constexpr int at_p = 4, at_flow = 5;
-/// Jump x, y and the volume strain.
+/// Jump along the normal, across, and the volume strain.
 using Unknowns = Eigen::Vector3d;
 
 const Voigt one(1, 1, 1, 0);
@@ -93,7 +94,7 @@ public:
         _de(de), _p(p), _dt(dt)
   {
     const auto [x, y] = interface.normal;
-    _N << x, 0, 0, y, 0, 0, y, x;
+    _N << x * x, -x * y, y * y, x * y, 0, 0, 2 * x * y, x * x - y * y;
     auto& [a, b] = _layers;
     const double sum = a.material.fraction() + b.material.fraction();
     a.fraction = a.material.fraction() / sum;
@@ -139,26 +140,43 @@ public:
       layer.weight = layer.fraction;
     }
     assemble();
-    return step();
+    return step(0);
   }
 
-  /// What the residuals can be made out to, summed from numbers of their size.
-  double tolerance(const Unknowns& x) const
+  /// What residuals have been summed from at x: stress, and the stiffness
+  /// times strains that may cancel [Pa].
+  std::array<double, 2> sizes(const Unknowns& x) const
   {
-    double size = std::abs(_p), stiffness = 0;
+    double stress = std::abs(_p), stiffness = 0;
     for (const Layer& layer : _layers)
     {
       const auto [G, K] = layer.material.moduli({}, _dt);
-      const double slope = std::abs(layer.r.dp_dtheta);
-      stiffness = std::max(stiffness, 2 * G + K + slope);
-      // a layer alone may be asked for strains that its fraction has hidden
-      size += norm(layer.r.s) + std::abs(layer.r.p);
+      stiffness = std::max(stiffness, 2 * G + K + std::abs(layer.r.dp_dtheta));
+      stress += norm(layer.r.s) + std::abs(layer.r.p);
     }
-    return 1e-13 * size + 2e-15 * stiffness * (x.norm() + _de.norm());
+    return {stress, stiffness * (x.norm() + _de.norm())};
+  }
+  double noise(const Unknowns& x) const
+  {
+    const auto [stress, strain] = sizes(x);
+    return 1e-15 * (stress + strain);
+  }
+  double tolerance(const Unknowns& x) const
+  {
+    const auto [stress, strain] = sizes(x);
+    return 1e-13 * stress + 4e-15 * strain;
   }
 
   double error() const { return _residual.norm(); }
-  Unknowns step() const { return _slope.partialPivLu().solve(-_residual); }
+  /// Newton's. Noise in the traction is none: its slope may be next to nothing.
+  Unknowns step(double noise) const
+  {
+    Unknowns load = -_residual;
+    for (int i = 0; i < 2; ++i)
+      if (std::abs(load[i]) <= noise)
+        load[i] = 0;
+    return _slope.partialPivLu().solve(load);
+  }
   Effort effort() const
   {
     Effort sum = _layers[0].r.effort;
@@ -227,7 +245,13 @@ private:
     }
     const Eigen::Matrix<double, 2, 6> T = traction();
     _residual << T * (a.value() - b.value()), _mean[at_p] - _p;
-    _slope << T * (a.by_unknowns(_N) - b.by_unknowns(_N)), _mean_by_x.row(at_p);
+    const Eigen::Matrix<double, 2, 3> slope_a = T * a.by_unknowns(_N),
+                                      slope_b = T * b.by_unknowns(_N);
+    _slope << slope_a - slope_b, _mean_by_x.row(at_p);
+    // layers whose grains are apart resist no shear: of all jumps the least
+    const double size =
+        slope_a.leftCols<2>().norm() + slope_b.leftCols<2>().norm();
+    _slope.diagonal().head<2>().array() += 1e-14 * size;
     _residual_by_de << T * (a.by_de() - b.by_de()), _mean_by_de.row(at_p);
   }
 
@@ -268,7 +292,7 @@ Outcome balance(Layers& layers, Unknowns& x, Effort& effort)
     {
       error = layers.error();
       last = x;
-      way = layers.step();
+      way = layers.step(layers.noise(x));
     }
     else
       way /= 2;
@@ -287,10 +311,10 @@ Outcome Laminate::operator()(std::span<Share> shares, const Voigt& de, double p,
   assert(interface.first >= 0
          and interface.first < static_cast<int>(shares.size()));
   Layers layers(shares, de, p, dt, interface);
-  Unknowns x;
+  Unknowns x = Unknowns::Zero();
   Effort effort;
   Outcome outcome = balance(layers, x, effort);
-  const Unknowns last = layers.step();
+  const Unknowns last = layers.step(layers.noise(x));
   if (outcome == Outcome::ok and kind != TangentKind::consistent)
     outcome = layers.evaluate(x, kind);
   mixed.refused = layers.refused;
