@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "samples.h"
+#include "states.h"
 
 #include "material/drive.h"
 #include <Eigen/Dense>
@@ -17,35 +17,18 @@ using namespace mmale;
 using namespace mmale::material;
 using Catch::Approx;
 using Catch::Matchers::ContainsSubstring;
+using mmale::test::advance;
+using mmale::test::begin;
+using mmale::test::moduli;
 using mmale::test::Random;
+using mmale::test::random_state;
 using mmale::test::Sample;
+using mmale::test::State;
+using mmale::test::update;
 
 namespace
 {
 constexpr double eps = std::numeric_limits<double>::epsilon();
-
-/// A point of a material: its state at the start of a step.
-struct State
-{
-  Voigt s = Voigt::Zero();
-  double p = 0;
-  std::vector<double> q = {};
-
-  Point point() const { return {s, p, q}; }
-};
-
-State begin(const AnyLaw& law, const Sample& sample)
-{
-  State start{.p = sample.p, .q = std::vector<double>(num_history(law), 0.0)};
-  std::visit([&](const auto& l) { l.begin({.p = sample.p}, start.q); }, law);
-  return start;
-}
-
-Moduli moduli(const AnyLaw& law, const State& start, const Sample& sample)
-{
-  return std::visit([&](const auto& l)
-                    { return l.moduli(start.point(), sample.dt); }, law);
-}
 
 bool is_fluid(const AnyLaw& law)
 {
@@ -56,47 +39,6 @@ double admit(const AnyLaw& law, State& state)
 {
   return std::visit([&](const auto& l)
                     { return l.admit(state.s, state.p, state.q); }, law);
-}
-
-Response update(const AnyLaw& law, const Sample& sample, const State& start,
-                const Voigt& de, double theta, std::vector<double>& q,
-                TangentKind kind = TangentKind::consistent)
-{
-  Response answer;
-  q = start.q;
-  const Outcome outcome = std::visit(
-      [&](const auto& l)
-      {
-        return l.update(start.point(), {de, theta, sample.dt}, kind, q, answer);
-      },
-      law);
-  REQUIRE(outcome == Outcome::ok);
-  return answer;
-}
-
-Response update(const AnyLaw& law, const Sample& sample, const State& start,
-                const Voigt& de, double theta)
-{
-  std::vector<double> q;
-  return update(law, sample, start, de, theta, q);
-}
-
-void advance(const AnyLaw& law, const Sample& sample, State& state,
-             const Voigt& de, double theta)
-{
-  std::vector<double> q;
-  const Response a = update(law, sample, state, de, theta, q);
-  state = {a.s, a.p, q};
-}
-
-/// A state that a random path of a few steps has led to.
-State random_state(const AnyLaw& law, const Sample& sample, Random& random)
-{
-  State state = begin(law, sample);
-  for (int k = 0; k < 4; ++k)
-    advance(law, sample, state, random.deviator(0.7 * sample.strain, 2),
-            sample.theta * random.unit());
-  return state;
 }
 
 /// All numbers of an answer whose derivatives it also brings: s, p, flow, each
