@@ -11,7 +11,7 @@ scene::Libraries libraries()
   return {.laws = material::law_infos(),
           .smoothers = bridge::smoothers(),
           .transports = bridge::transports(),
-          .closures = material::closures(),
+          .closures = material::closure_names(),
           .interfaces = bridge::interfaces(),
           .fields = {}};
 }

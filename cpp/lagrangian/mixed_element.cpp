@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace mmale::lagrangian
 {
@@ -51,6 +52,7 @@ MixedElement::MixedElement(const mesh::Domain& domain,
                IntegralKind::cell},
               {_axisymmetric ? *form_mixed_B_axi : *form_mixed_B_plane,
                IntegralKind::cell}},
+      _closure(material::make_closure(options.closure)),
       _rule(options.void_rule), _pure(laws.size()),
       _of_cell(domain.num_owned_cells), _empty(domain.num_owned_cells)
 {
@@ -236,9 +238,42 @@ void MixedElement::fill_shares(const State& state, const Mixture& m,
                           motion.sine),
                    state.P[slot], turned},
          .q = std::span(_part_history).subspan(h * (slot - cells), numbers),
-         .answer = {},
-         .guess = _part[slot - cells].guess});
+         .guess = _part[slot - cells].guess,
+         .answer = {}});
   }
+}
+
+/// Between the largest share and the others, across the line through their
+/// middles. Ties are broken by place: the numbers of materials mean nothing.
+material::Interface MixedElement::find_interface(const State& state, int c,
+                                                 const Mixture& m) const
+{
+  material::Interface out;
+  if (std::holds_alternative<material::EqualPressure>(_closure))
+    return out;
+  const auto before = [](const Part& a, const Part& b)
+  {
+    return std::tuple(a.fraction, a.centroid.x, a.centroid.y)
+           > std::tuple(b.fraction, b.centroid.x, b.centroid.y);
+  };
+  std::vector<std::pair<Part, int>> bodies;
+  for (const Part& part : state.materials->parts(m.row))
+    if (not is_void(part.material))
+      bodies.emplace_back(part, static_cast<int>(bodies.size()));
+  if (bodies.size() < 2)
+    return out;
+  std::ranges::sort(bodies, before, [](const auto& b) { return b.first; });
+  out.first = bodies[0].second;
+  out.second = bodies[1].second;
+  const auto way = bodies[1].first.centroid - bodies[0].first.centroid;
+  const double length = std::hypot(way.x, way.y);
+  if (not(length > 0))
+    return out;
+  const Motion& motion = _cell[c].motion;
+  out.normal = {(motion.cosine * way.x - motion.sine * way.y) / length,
+                (motion.sine * way.x + motion.cosine * way.y) / length};
+  out.area = 1; // there is one
+  return out;
 }
 
 /// What the materials of a cell answer together; what is wrong, or null.
@@ -250,14 +285,15 @@ const char* MixedElement::answer_mixture(const State& state, int c,
   double p = 0;
   for (int v = 0; v < 3; ++v)
     p += m.centre[v] * z[3 * _domain.cells[c][v] + 2];
+  fill_shares(state, m, cell.motion);
+  const material::Interface interface = find_interface(state, c, m);
   const auto ask = [&](double pressure, material::Mixed& out)
   {
-    fill_shares(state, m, cell.motion);
     return std::visit(
         [&](const auto& closure)
         {
           return closure(_share, cell.motion.de, pressure, dt, tangent_kind(),
-                         {}, out);
+                         interface, out);
         },
         _closure);
   };
@@ -268,23 +304,18 @@ const char* MixedElement::answer_mixture(const State& state, int c,
     return answer_spray(state, c);
   if (m.gap)
   {
-    double filled = 0;
-    for (const Part& part : state.materials->parts(m.row))
-      filled += is_void(part.material) ? 0 : part.fraction;
-    if (ask(0, mixed) != Outcome::ok)
+    if (material::open_volume(_share, cell.motion.de, dt, tangent_kind(), mixed)
+        != Outcome::ok)
       return "a law asks for a smaller step";
-    const double room = cell.motion.ln_J - std::log(filled);
-    m.open = mixed.mean.theta < room;
+    const double J = std::exp(cell.motion.ln_J);
+    m.open = mixed.volume < J;
     if (m.open)
-    {
-      bearing = std::exp(mixed.mean.theta - room);
-      p = 0;
-    }
+      bearing = mixed.volume / J;
     else
     {
       if (ask(p, mixed) != Outcome::ok)
         return "a law asks for a smaller step";
-      mixed.mean.theta += std::log(filled);
+      mixed.mean.theta += std::log(m.bodies);
     }
   }
   else if (ask(p, mixed) != Outcome::ok)
@@ -298,8 +329,8 @@ const char* MixedElement::answer_mixture(const State& state, int c,
     end = {Voigt::Zero(), 0, 0, nan};
     if (is_void(part.material))
       continue;
-    end = {rotate(share->answer.s, cell.motion.cosine, cell.motion.sine), p,
-           share->answer.theta, share->answer.theta};
+    end = {rotate(share->answer.s, cell.motion.cosine, cell.motion.sine),
+           share->p, share->answer.theta, share->guess};
     _media[part.material].turn(share->q, cell.motion.cosine, cell.motion.sine);
     ++share;
   }

@@ -61,6 +61,8 @@ private:
   void find_mixture(const State& state, int cell, Mixture& m) const;
   const char* answer_mixture(const State& state, int cell,
                              std::span<const double> z, double dt);
+  material::Interface find_interface(const State& state, int cell,
+                                     const Mixture& m) const;
   double ersatz(const State& state, int cell) const;
   const char* answer_spray(const State& state, int cell);
   void fill_shares(const State& state, const Mixture& m, const Motion& motion);
