@@ -24,6 +24,10 @@ constexpr double open_fill = 1e-6;
 /// Void that is left of a gap that has closed; the remap sweeps it up.
 constexpr double closed_fill = 1e-13;
 
+/// Part of the ersatz stiffness that holds nodes to where they were, lest crumbs
+/// that touch nothing float about in statics.
+constexpr double grounded = 1e-4;
+
 /// Shares of the vertices of a cell in a point.
 std::array<double, 3> shares_at(const mesh::Domain& domain,
                                 std::span<const double> x, int c,
@@ -434,7 +438,7 @@ void MixedElement::residual(const State& state, int c,
       {
         const auto u = [&](int i)
         { return z[3 * _domain.cells[c][(v + i) % 3] + d]; };
-        R[3 * v + d] += k * (2 * u(0) - u(1) - u(2));
+        R[3 * v + d] += k * ((2 + grounded) * u(0) - u(1) - u(2));
       }
 }
 
@@ -467,7 +471,7 @@ void MixedElement::jacobian(const State& state, int c,
   if (const double k = ersatz(state, c); k > 0)
     for (int i = 0; i < 9; ++i)
       for (int j = i % 3; i % 3 != 2 and j < 9; j += 3)
-        J[9 * i + j] += i == j ? 2 * k : -k;
+        J[9 * i + j] += i == j ? (2 + grounded) * k : -k;
 }
 
 std::array<double, 6> MixedElement::forces(const State& state, int c,

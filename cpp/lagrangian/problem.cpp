@@ -423,6 +423,8 @@ bool Problem::newton(NewtonLog& log)
   SNESGetConvergedReason(_snes, &reason);
   if (reason <= 0)
     name_worst(log);
+  if (reason == SNES_DIVERGED_LINEAR_SOLVE)
+    forget_factor();
   return reason > 0;
 }
 

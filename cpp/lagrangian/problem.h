@@ -131,6 +131,7 @@ private:
   void lift(Vec b);
   void create_matrix();
   void create_solver();
+  void forget_factor();
   void unpack(Vec x);
   bool evaluate();
   void assemble_residual(double* r);

@@ -123,6 +123,16 @@ void Problem::create_solver()
   SNESSetFromOptions(_snes);
 }
 
+/// A factorisation that failed would be asked again.
+void Problem::forget_factor()
+{
+  KSP ksp;
+  PC pc;
+  SNESGetKSP(_snes, &ksp);
+  KSPGetPC(ksp, &pc);
+  PCReset(pc);
+}
+
 PetscErrorCode Problem::function(SNES, Vec x, Vec r, void* context)
 {
   PetscFunctionBeginUser;
