@@ -190,7 +190,7 @@ void Problem::rebalance(State& state, double t)
       const int i = 2 * n + d;
       state.force[i] = state.inner[i] + force[3 * n + d]
                        + (state.held_back.empty() ? 0 : state.held_back[i]);
-      if (_conditions->holder()[3 * n + d] < 0 and bears(n))
+      if (_conditions->holder()[3 * n + d] < 0 and bears(n, d))
         state.a[i] = -state.force[i] / _newmark->mass(n);
     }
   _domain.node_halo->update(state.force, 2);

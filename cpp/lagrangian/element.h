@@ -148,6 +148,8 @@ public:
 
   /// Is there anything but void in a cell, of this rank or a ghost?
   virtual bool present(const State&, int) const { return true; }
+  /// Can it bear a pressure?
+  virtual bool bears(const State&, int) const { return true; }
 
   /// What the law's last answer took in a cell.
   virtual material::Effort effort(int cell) const = 0;

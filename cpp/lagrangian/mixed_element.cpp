@@ -68,6 +68,21 @@ bool MixedElement::present(const State& state, int c) const
   return k < 0 or not is_void(k);
 }
 
+bool MixedElement::bears(const State& state, int c) const
+{
+  const Materials& materials = *state.materials;
+  if (const std::int32_t k = materials.pure(c); k >= 0)
+    return not is_void(k);
+  double fill = 0;
+  bool with_void = false;
+  for (const Part& part : materials.parts(materials.row(c)))
+    if (is_void(part.material))
+      with_void = true;
+    else
+      fill += part.fraction;
+  return not with_void or fill >= _options.spray_below;
+}
+
 void MixedElement::find_cells(const State& state)
 {
   const Materials& materials = *state.materials;
@@ -402,7 +417,8 @@ void MixedElement::gather(const State& state, int c, std::span<const double> z,
   }
   if (not m.open)
     return;
-  in.fill = in.kept = open_fill;
+  in.fill = m.spray ? 0 : open_fill;
+  in.kept = 0;
   in.ln_J = 0;
   in.theta = 0;
   for (int v = 0; v < 3; ++v)

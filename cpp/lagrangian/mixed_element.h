@@ -35,6 +35,7 @@ public:
   material::Moduli moduli(const State& state, int cell, double dt,
                           bool fast = false) const override;
   bool present(const State& state, int cell) const override;
+  bool bears(const State& state, int cell) const override;
 
 private:
   /// A cell that several materials share, the void among them.

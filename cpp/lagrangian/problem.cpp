@@ -356,25 +356,30 @@ void Problem::hold()
     }
 }
 
-/// Which nodes have only void around them. Collective.
+/// Which nodes have only void around them, and which nothing that bears a
+/// pressure. Collective.
 void Problem::find_void(const State& state)
 {
-  _bears.clear();
+  _around.clear();
   if (not state.materials)
     return;
-  _bears.assign(_domain.num_nodes(), 0);
+  _around.assign(2 * static_cast<std::size_t>(_domain.num_nodes()), 0);
   for (int c = 0; c < _domain.num_cells(); ++c)
-    if (_element->present(state, c))
-      for (int n : _domain.cells[c])
-        _bears[n] = 1;
-  _domain.node_halo->update(_bears, 1); // a ghost's cells are not all here
+    for (int n : _domain.cells[c])
+    {
+      if (_element->present(state, c))
+        _around[2 * n] = 1;
+      if (_element->bears(state, c))
+        _around[2 * n + 1] = 1;
+    }
+  _domain.node_halo->update(_around, 2); // a ghost's cells are not all here
 }
 
-/// These nodes leave the system: they stay, and have no pressure.
+/// These nodes leave the system: they stay, or have no pressure.
 void Problem::hold_void()
 {
   for (int i = 0; i < 3 * _domain.num_nodes(); ++i)
-    if (not bears(i / 3) and _holder[i] < 0)
+    if (not bears(i / 3, i % 3) and _holder[i] < 0)
     {
       _holder[i] = by_void();
       _increment[i] = 0;

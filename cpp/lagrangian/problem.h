@@ -166,7 +166,11 @@ private:
   void hold();
   void find_void(const State& state);
   void hold_void();
-  bool bears(int node) const { return _bears.empty() or _bears[node] != 0; }
+  /// Has an unknown 0, 1 (motion) or 2 (pressure) of a node a meaning?
+  bool bears(int node, int unknown) const
+  {
+    return _around.empty() or _around[2 * node + unknown / 2] != 0;
+  }
   void start(Start from);
   bool newton(NewtonLog& log);
   bool equilibrium(Start from, NewtonLog& log);
@@ -193,8 +197,9 @@ private:
   double _t0 = 0, _t1 = 0;         ///< of this step
   std::vector<int> _holder;        ///< owned and ghost unknowns
   std::vector<double> _increment;  ///< of held unknowns
-  std::vector<double> _bears; ///< is there more than void around a node? Empty
-                              ///< with one material
+  std::vector<double> _around; ///< is there more than void around a node, and
+                               ///< what bears a pressure? Shape (n, 2); empty
+                               ///< with one material
   std::vector<double> _motion;     ///< last step's increment, (nodes, 2)
   std::vector<std::array<double, 2>> _reactions; ///< of the last solve
   double _guess_dt = 0;            ///< its step; 0: no guess for the next
