@@ -3,6 +3,7 @@
 
 #include "domains.h"
 #include "output/on_root.h"
+#include "remap/domain/drawing.h"
 #include "remap/domain/paint.h"
 #include <algorithm>
 #include <array>
