@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bridge/domains.h"
+#include "bridge/paint.h"
 #include "command_line.h"
 #include "drainage.h"
 #include "element/verb.h"
@@ -92,11 +93,13 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
 {
   scene::OutlineReader read_mesh;
   scene::DomainReader read_domain;
+  scene::RegionReader read_region;
   if (meshes)
   {
     read_mesh = [meshes](const scene::Scene& scene)
     { return meshes->of(scene).outline; };
     read_domain = bridge::outline_of;
+    read_region = bridge::region_outline;
   }
   complaints = file.complaints;
   const scene::Sweep sweep = scene::expand(given.overrides);
@@ -108,7 +111,7 @@ std::vector<Job> read_jobs(const scene::FileText& file, const Arguments& given,
   {
     scene::Reading reading =
         scene::read(file.text, given.scene.string(), member.overrides,
-                    libraries(), read_mesh, read_domain);
+                    libraries(), read_mesh, read_domain, read_region);
     std::ranges::copy(reading.complaints, std::back_inserter(complaints));
     Job job = {.member = member, .scene = std::move(reading.scene)};
     job.described = scene::describe(job.scene);

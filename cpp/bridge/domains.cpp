@@ -135,16 +135,6 @@ constexpr const char* cure =
     "-DREMAP_CGAL=ON (CGAL's arrangements, under the GPL), which does it";
 #endif
 
-/// Rings that rank 0 knows, on all ranks; the same on all to the last bit.
-::remap::Domain share_domain(MPI_Comm comm, std::string& text)
-{
-  auto size = static_cast<std::int64_t>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
-  return ::remap::Domain(::remap::read_text(text).shapes);
-}
-
 /// All ranks' numbers one behind the other, on the first rank.
 std::vector<double> gather(MPI_Comm comm, const std::vector<double>& mine)
 {
@@ -248,15 +238,23 @@ LaidDomain lay_over(const mesh::Domain& mesh, const ::remap::Domain& domain)
 }
 } // namespace
 
-LoadedDomain load_domain(const std::string& name, const scene::Domain& given)
+::remap::Domain share_domain(MPI_Comm comm, std::string& text)
+{
+  auto size = static_cast<std::int64_t>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
+  return ::remap::Domain(::remap::read_text(text).shapes);
+}
+
+LoadedDomain load_domain(const std::string& key, const scene::Domain& given)
 {
   const fs::path file = fs::path(given.folder) / given.file;
   LoadedDomain out;
   std::string text;
   if (const auto why = read_file(file, text); not why.empty())
   {
-    out.complaints.push_back(
-        {"domain." + name + ".file", file.string() + ": " + why, {}});
+    out.complaints.push_back({key + ".file", file.string() + ": " + why, {}});
     return out;
   }
   const Drawing drawing = read_drawing(text, is_svg(file), given);
@@ -268,7 +266,7 @@ LoadedDomain load_domain(const std::string& name, const scene::Domain& given)
   for (const auto& trouble : troubles)
     out.complaints.push_back({"", trouble.what, {file.string(), trouble.line}});
   if (crossing)
-    out.complaints.push_back({"domain." + name + ".file", cure, {}});
+    out.complaints.push_back({key + ".file", cure, {}});
   if (out.complaints.empty())
     out.domain = ::remap::Domain(drawing.shapes);
   return out;
@@ -277,7 +275,7 @@ LoadedDomain load_domain(const std::string& name, const scene::Domain& given)
 scene::DomainOutline outline_of(const std::string& name,
                                 const scene::Domain& given)
 {
-  const LoadedDomain loaded = load_domain(name, given);
+  const LoadedDomain loaded = load_domain("domain." + name, given);
   const Point low = loaded.domain.low(), high = loaded.domain.high();
   return {{low.x, low.y}, {high.x, high.y}, loaded.complaints};
 }
@@ -289,7 +287,8 @@ LaidDomain lay(const mesh::Domain& mesh, const std::string& name,
   output::on_root(mesh.comm,
                   [&]
                   {
-                    const LoadedDomain loaded = load_domain(name, given);
+                    const LoadedDomain loaded =
+                        load_domain("domain." + name, given);
                     std::string all;
                     for (const auto& complaint : loaded.complaints)
                       all += (all.empty() ? "" : "\n") + to_string(complaint);

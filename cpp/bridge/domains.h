@@ -19,8 +19,13 @@ struct LoadedDomain
   std::vector<scene::Complaint> complaints; ///< empty: it may be used
 };
 
-/// @param[in] name of the domain in the scene, for complaints
-LoadedDomain load_domain(const std::string& name, const scene::Domain& given);
+/// @param[in] key of its table in the scene, for complaints
+LoadedDomain load_domain(const std::string& key, const scene::Domain& given);
+
+/// Rings that rank 0 knows, on all ranks; the same on all to the last bit.
+/// Collective.
+/// @param[in,out] text of `to_text`, on all ranks from rank 0's
+::remap::Domain share_domain(MPI_Comm comm, std::string& text);
 
 /// For the scene's checks.
 scene::DomainOutline outline_of(const std::string& name,

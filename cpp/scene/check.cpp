@@ -50,7 +50,8 @@ std::string stage_label(const std::vector<Stage>& stages, std::size_t i)
 
 std::vector<Complaint> check(Scene scene, const Libraries& libraries,
                              const OutlineReader& read_mesh,
-                             const DomainReader& read_domain)
+                             const DomainReader& read_domain,
+                             const RegionReader& read_region)
 {
   Complaints out;
   Checker checker("", out);
@@ -60,6 +61,7 @@ std::vector<Complaint> check(Scene scene, const Libraries& libraries,
   const auto outline = outline_of(scene, read_mesh, out);
   const Outline* known = outline ? &*outline : nullptr;
   check_materials(scene, libraries, out);
+  check_regions(scene, known, read_region, out);
   check_stages(scene, known, out);
   check_water(scene, libraries, out);
   check_solver(scene, out);

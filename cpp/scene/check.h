@@ -19,9 +19,12 @@ namespace mmale::scene
 /// @param read_mesh  for shape "gmsh"; without it, what only the mesh tells
 ///                   (names of boundaries) is not checked
 /// @param read_domain  for domains; without it their files are not looked at
+/// @param read_region  for regions; without it neither polygons that cross
+///                     themselves nor files are looked at
 std::vector<Complaint> check(Scene scene, const Libraries& libraries,
                              const OutlineReader& read_mesh = {},
-                             const DomainReader& read_domain = {});
+                             const DomainReader& read_domain = {},
+                             const RegionReader& read_region = {});
 
 /// Names become columns, folders and parts of dotted keys: letters, digits, _
 /// and -, the first a letter or _.

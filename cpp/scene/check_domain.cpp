@@ -20,6 +20,8 @@ void check_nothing_moves(const Scene& scene, Complaints& out)
     useless("stage." + stage_label(scene.stage, i));
   for (const auto& [name, material] : scene.material)
     useless("material." + name);
+  for (std::size_t i = 0; i < scene.region.size(); ++i)
+    useless("region." + std::to_string(i));
   for (const auto& [name, tracer] : scene.tracer)
     useless("tracer." + name);
   if (scene.motion)
@@ -32,29 +34,45 @@ void check_nothing_moves(const Scene& scene, Complaints& out)
     useless("output.line." + name);
 }
 
-void check_place(const Scene& scene, const std::string& name,
+std::string box_words(const DomainOutline& domain)
+{
+  return std::format("its box is {} to {}", words(domain.low),
+                     words(domain.high));
+}
+
+void check_place(const Scene& scene, const std::string& key,
                  const DomainOutline& domain, const Outline* outline,
                  Complaints& out)
 {
-  const std::string key = "domain." + name;
-  const std::string box =
-      std::format("its box is {} to {}", words(domain.low), words(domain.high));
   if (scene.symmetry == Symmetry::axisymmetric and domain.low[0] < 0)
-    out.push_back({key, "reaches to the left of the axis: " + box, {}});
-  if (not outline)
-    return;
+    out.push_back(
+        {key, "reaches to the left of the axis: " + box_words(domain), {}});
+  if (outline)
+    check_in_mesh(key, domain, *outline, out);
+}
+} // namespace
+
+void check_in_mesh(const std::string& key, const DomainOutline& domain,
+                   const Outline& outline, Complaints& out)
+{
   for (std::size_t d = 0; d < 2; ++d)
-    if (domain.high[d] <= outline->low[d] or domain.low[d] >= outline->high[d])
+    if (domain.high[d] <= outline.low[d] or domain.low[d] >= outline.high[d])
     {
-      out.push_back(
-          {key,
-           std::format("lies outside the mesh, which is {} to {}; {}",
-                       words(outline->low), words(outline->high), box),
-           {}});
+      out.push_back({key,
+                     std::format("lies outside the mesh, which is {} to {}; {}",
+                                 words(outline.low), words(outline.high),
+                                 box_words(domain)),
+                     {}});
       return;
     }
 }
-} // namespace
+
+void check_scale(const std::string& key, const Domain& domain, Complaints& out)
+{
+  if (domain.height > 0 and domain.scale != Domain().scale)
+    out.push_back(
+        {key + ".scale", "follows from height, which is given too", {}});
+}
 
 void check_domains(const Scene& scene, const Outline* outline,
                    const DomainReader& read_domain, Complaints& out)
@@ -65,9 +83,7 @@ void check_domains(const Scene& scene, const Outline* outline,
   for (const auto& [name, domain] : scene.domain)
   {
     const std::string key = "domain." + name;
-    if (domain.height > 0 and domain.scale != Domain().scale)
-      out.push_back(
-          {key + ".scale", "follows from height, which is given too", {}});
+    check_scale(key, domain, out);
     for (const auto& [table, taken] :
          {std::pair{"picture", scene.output.picture.contains(name)},
           std::pair{"chart", scene.output.chart.contains(name)}})
@@ -80,7 +96,7 @@ void check_domains(const Scene& scene, const Outline* outline,
     const DomainOutline found = read_domain(name, domain);
     out.insert(out.end(), found.complaints.begin(), found.complaints.end());
     if (found.complaints.empty())
-      check_place(scene, name, found, outline, out);
+      check_place(scene, key, found, outline, out);
   }
 }
 } // namespace mmale::scene

@@ -21,6 +21,9 @@ void check_materials(const Scene& scene, const Libraries& libraries,
 void check_material(const Material& material, const Libraries& libraries,
                     const std::string& key, Complaints& out);
 // The outline is null where nothing is known of it.
+/// Regions: their materials, their shapes, and what needs them.
+void check_regions(const Scene& scene, const Outline* outline,
+                   const RegionReader& read_region, Complaints& out);
 void check_stages(const Scene& scene, const Outline* outline, Complaints& out);
 /// Pore water: what it needs, and what needs it.
 void check_water(const Scene& scene, const Libraries& libraries,
@@ -56,6 +59,13 @@ bool may_be_inside(const Mesh& mesh, const Point& x);
 
 /// Ends of a side [m], in the corners' order.
 std::array<Point, 2> side_ends(const Mesh& mesh, const std::string& side);
+
+/// Complains of a domain whose box has nothing of the mesh in it.
+void check_in_mesh(const std::string& key, const DomainOutline& domain,
+                   const Outline& outline, Complaints& out);
+
+/// Complains of a height and a scale that do not go together.
+void check_scale(const std::string& key, const Domain& domain, Complaints& out);
 
 /// "(0.5, 1.5)".
 std::string words(const Point& x);

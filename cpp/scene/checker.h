@@ -70,6 +70,12 @@ public:
       missing(key);
   }
 
+  void operator()(const Key& key, std::vector<Point>& points)
+  {
+    if (points.empty())
+      missing(key);
+  }
+
   void operator()(const Key& key, std::optional<Point>& x)
   {
     if (x)

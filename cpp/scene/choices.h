@@ -69,6 +69,8 @@ inline const std::vector<std::string> sides = {"left", "right", "bottom",
                                                "top"};
 inline const std::vector<std::string> mesh_shapes = {"rectangle",
                                                      "quadrilateral", "gmsh"};
+inline const std::vector<std::string> region_shapes = {
+    "rectangle", "polygon", "circle", "half_plane", "file", "everywhere"};
 inline const std::vector<std::string> quantities = {"displacement_x",
                                                     "displacement_y",
                                                     "velocity_x",

@@ -116,6 +116,19 @@ public:
       point(*node, under(_path, key.name), x.emplace(Point{0, 0}));
   }
 
+  void operator()(const Key& key, std::vector<Point>& points)
+  {
+    const Node* node = find(key.name);
+    const std::string path = under(_path, key.name);
+    if (not node)
+      return;
+    if (node->kind != Node::Kind::list)
+      return wrong(*node, path, "a list of points [x, y]");
+    for (const Node& item : node->items)
+      if (not point(item, path, points.emplace_back()))
+        return;
+  }
+
   void operator()(const Key& key, std::array<Point, 4>& corners)
   {
     const Node* node = find(key.name);

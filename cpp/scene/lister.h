@@ -64,6 +64,11 @@ public:
         std::isnan(x[0]) ? "required" : std::format("[{}, {}]", x[0], x[1]));
   }
 
+  void operator()(const Key& key, std::vector<Point>&)
+  {
+    add(key, "list of points [x, y]", "", "required");
+  }
+
   void operator()(const Key& key, std::optional<Point>&)
   {
     add(key, "point [x, y]", "", "");

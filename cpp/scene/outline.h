@@ -50,4 +50,9 @@ struct DomainOutline
 /// complaints, the rest is not looked at.
 using DomainReader =
     std::function<DomainOutline(const std::string& name, const Domain&)>;
+
+/// The same for a region with shape "polygon" or "file"; the key is its
+/// table's.
+using RegionReader =
+    std::function<DomainOutline(const std::string& key, const Region&)>;
 } // namespace mmale::scene

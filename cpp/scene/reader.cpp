@@ -33,22 +33,24 @@ FileText load(const std::filesystem::path& path, const std::string& kind)
 
 Reading read(std::string_view text, const std::string& file,
              std::span<const Override> overrides, const Libraries& libraries,
-             const OutlineReader& read_mesh, const DomainReader& read_domain)
+             const OutlineReader& read_mesh, const DomainReader& read_domain,
+             const RegionReader& read_region)
 {
   Reading reading;
-  reading.complaints =
-      take(parse(text, file), overrides, reading.scene,
-           [&](Scene& scene)
-           {
-             const std::string folder =
-                 std::filesystem::path(file).parent_path();
-             scene.mesh.folder = folder;
-             for (auto& [name, domain] : scene.domain)
-               domain.folder = folder;
-             for (auto& [name, material] : scene.material)
-               material.folder = folder;
-             return check(scene, libraries, read_mesh, read_domain);
-           });
+  reading.complaints = take(
+      parse(text, file), overrides, reading.scene,
+      [&](Scene& scene)
+      {
+        const std::string folder = std::filesystem::path(file).parent_path();
+        scene.mesh.folder = folder;
+        for (auto& [name, domain] : scene.domain)
+          domain.folder = folder;
+        for (Region& region : scene.region)
+          region.drawing.folder = folder;
+        for (auto& [name, material] : scene.material)
+          material.folder = folder;
+        return check(scene, libraries, read_mesh, read_domain, read_region);
+      });
   return reading;
 }
 } // namespace mmale::scene

@@ -42,8 +42,10 @@ FileText load(const std::filesystem::path& path,
 /// @param libraries  laws, smoothers and schemes that may be named
 /// @param read_mesh    for a gmsh mesh, see `check`
 /// @param read_domain  for domains, see `check`
+/// @param read_region  for regions, see `check`
 Reading read(std::string_view text, const std::string& file,
              std::span<const Override> overrides, const Libraries& libraries,
              const OutlineReader& read_mesh = {},
-             const DomainReader& read_domain = {});
+             const DomainReader& read_domain = {},
+             const RegionReader& read_region = {});
 } // namespace mmale::scene

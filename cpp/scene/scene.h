@@ -321,6 +321,22 @@ struct Domain
                            ///< 0: 1e-4 of the box's height
 };
 
+/// A part of the body that a material fills. Regions are painted in the order
+/// written: a later one covers what lies under it.
+struct Region
+{
+  std::string material;             ///< by its name
+  std::string shape;                ///< one of `region_shapes`
+  Point low = {required, required}; ///< of the rectangle [m]
+  Point high = {required, required};
+  std::vector<Point> points;           ///< of the polygon, either way round [m]
+  Point centre = {required, required}; ///< of the circle [m]
+  double radius = required;            ///< of the circle [m]
+  Point point = {required, required};  ///< on the half-plane's line [m]
+  Point normal = {required, required}; ///< out of the material, of any length
+  Domain drawing;                      ///< of shape "file"
+};
+
 /// A number at a depth below the ground surface.
 struct AtDepth
 {
@@ -426,6 +442,7 @@ struct Scene
   Mesh mesh;
   std::map<std::string, Boundary> boundary;
   std::map<std::string, Material> material;
+  std::vector<Region> region; ///< none: one material fills the body
   std::optional<Water> water;
   std::map<std::string, Tracer> tracer;
   std::map<std::string, Domain> domain;

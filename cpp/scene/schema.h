@@ -33,8 +33,9 @@ struct Key
 template <class T>
 inline constexpr bool is_table =
     OneOf<T, Mesh, Grading, Boundary, Material, Water, Wall, Condition,
-          Dynamics, Stage, Solver, Remap, Tracer, Domain, Initial, AtDepth,
-          Motion, Curve, Line, ReferenceLine, Chart, Picture, Output, Scene>;
+          Dynamics, Stage, Solver, Remap, Tracer, Domain, Region, Initial,
+          AtDepth, Motion, Curve, Line, ReferenceLine, Chart, Picture, Output,
+          Scene>;
 
 template <class T>
 concept Table = is_table<T>;
@@ -163,6 +164,41 @@ void keys(V& v, Domain& d)
      "How far chords may be from an SVG's curves; 0: 1e-4 of the height.",
      at_least(0)},
     d.tolerance);
+}
+
+template <class V>
+void keys(V& v, Region& r)
+{
+  const auto with = [&](std::size_t shape, auto visit_keys)
+  { v.only_with("shape", r.shape, region_shapes, {shape}, visit_keys); };
+  v({"material", "", "Material that fills it, by name.", {}, {}, true},
+    r.material);
+  v({"shape", "", "Shape of the region.", {}, region_shapes, true}, r.shape);
+  with(0,
+       [&]
+       {
+         v({"low", "m", "Lower left corner of the rectangle."}, r.low);
+         v({"high", "m", "Upper right corner of the rectangle."}, r.high);
+       });
+  with(1,
+       [&]
+       {
+         v({"points", "m", "Corners of the polygon, either way round."},
+           r.points);
+       });
+  with(2,
+       [&]
+       {
+         v({"centre", "m", "Centre of the circle."}, r.centre);
+         v({"radius", "m", "Radius of the circle.", above(0)}, r.radius);
+       });
+  with(3,
+       [&]
+       {
+         v({"point", "m", "A point of the straight edge."}, r.point);
+         v({"normal", "-", "Across the edge, out of the material."}, r.normal);
+       });
+  with(4, [&] { keys(v, r.drawing); });
 }
 
 template <class V>
@@ -463,6 +499,10 @@ void keys(V& v, Scene& s)
   v({"mesh", "", "Domain and its triangles."}, s.mesh);
   v({"boundary", "", "Named parts of sides."}, s.boundary);
   v({"material", "", "Materials, by name."}, s.material);
+  v({"region", "",
+     "Parts of the body by material, painted in this order: a later one covers "
+     "an earlier."},
+    s.region);
   v({"water", "", "Water in the pores; without this table all is dry."},
     s.water);
   v({"tracer", "", "Passive scalars carried by the remap, by name."}, s.tracer);

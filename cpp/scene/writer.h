@@ -50,7 +50,8 @@ public:
 
   template <class T>
     requires OneOf<T, int, bool, Point, std::array<Point, 4>,
-                   std::array<int, 2>, std::vector<std::string>>
+                   std::array<int, 2>, std::vector<std::string>,
+                   std::vector<Point>>
   void operator()(const Key& key, T& value)
   {
     // A pair of zeros stands for "by size".

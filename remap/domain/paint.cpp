@@ -33,7 +33,8 @@ public:
         _sums(static_cast<std::size_t>(num_materials) + 1), _rows(cells.size()),
         _out{.materials = Materials(static_cast<std::int32_t>(cells.size()),
                                     num_materials),
-             .bare_at = {}}
+             .bare = {},
+             .crowded = {}}
   {
     outline::Walk walk(_cells, *this);
     for (std::size_t k = 0; k < coats.size(); ++k)
@@ -44,6 +45,8 @@ public:
     for (std::size_t c = 0; c < _rows.size(); ++c)
       if (not _rows[c].empty())
         write(static_cast<std::int32_t>(c));
+    std::ranges::sort(_out.bare, {}, &BarePlace::cell);
+    std::ranges::sort(_out.crowded);
   }
 
   Painting result() { return std::move(_out); }
@@ -63,8 +66,8 @@ public:
       if (top >= 0)
         _out.materials.set_pure(c, _coats[at(top)].material);
       else
-        leave_bare(c, position::about_first<G>(t).v,
-                   1.0 / 3 * (t[0] + t[1] + t[2]));
+        _out.bare.push_back(
+            {c, position::about_first<G>(t).v, 1.0 / 3 * (t[0] + t[1] + t[2])});
     }
   }
 
@@ -200,7 +203,7 @@ private:
           {size, std::abs(p.x - _origin.x), std::abs(p.y - _origin.y)});
     const double noise = 16 * eps * _reach * size * position::weight<G>(t);
     if (_sums.back().v > noise)
-      leave_bare(c, _sums.back().v, bare_at);
+      _out.bare.push_back({c, _sums.back().v, bare_at});
     const auto shares = std::span(_sums).first(_sums.size() - 1);
     const std::size_t largest = static_cast<std::size_t>(
         std::ranges::max_element(shares, {}, &Moments::v) - shares.begin());
@@ -214,8 +217,7 @@ private:
       }
     if (row.size() >= static_cast<std::size_t>(most_parts))
     {
-      if (_out.crowded_cell < 0 or c < _out.crowded_cell)
-        _out.crowded_cell = c;
+      _out.crowded.push_back(c);
       row.clear();
     }
     if (row.empty())
@@ -223,15 +225,6 @@ private:
     // All that is round-off, or bare, is in the largest.
     row.push_back({static_cast<int>(largest), rest});
     std::ranges::sort(row, {}, &Share::material);
-  }
-
-  void leave_bare(std::int32_t c, double volume, Point where)
-  {
-    _out.bare += volume;
-    if (_out.bare_cell >= 0 and c > _out.bare_cell)
-      return;
-    _out.bare_cell = c;
-    _out.bare_at = where;
   }
 
   void write(std::int32_t c)

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace remap
 {
@@ -22,6 +23,14 @@ struct Coat
   bool everywhere = false; ///< in all cells; the domain is then not looked at
 };
 
+/// Some of a cell that no coat covers.
+struct BarePlace
+{
+  std::int32_t cell = -1;
+  double volume = 0; ///< [m³/m or m³/rad]
+  Point at;          ///< a point of it [m]
+};
+
 /// What painting came to. No place is left bare, and no cell crowded, by coats
 /// that are fit for use: whoever asked for them looks at both.
 struct Painting
@@ -29,11 +38,9 @@ struct Painting
   /// Bare places are taken by the cell's other materials, or else material 0;
   /// crowded cells hold their largest material alone.
   Materials materials;
-  double bare = 0;             ///< volume that no coat covers [m³/m or m³/rad]
-  std::int32_t bare_cell = -1; ///< the first cell with some of it
-  Point bare_at;               ///< a point of it [m]
-  /// The first cell with more materials than one can hold (`most_parts`).
-  std::int32_t crowded_cell = -1;
+  std::vector<BarePlace> bare; ///< by ascending cell
+  /// Cells with more materials than one can hold (`most_parts`), ascending.
+  std::vector<std::int32_t> crowded;
 };
 
 /// Lay coats over triangles. These may be any set: a rank brings its own, and

@@ -76,6 +76,14 @@ Painting painted(const std::vector<Coat>& coats, const meshes::Data& mesh,
   return paint<G>(coats, mesh.cells, mesh.x, num_materials);
 }
 
+double sum(const std::vector<BarePlace>& bare)
+{
+  double out = 0;
+  for (const BarePlace& b : bare)
+    out += b.volume;
+  return out;
+}
+
 Coat everywhere(int material)
 {
   return {.domain = {}, .material = material, .everywhere = true};
@@ -91,9 +99,8 @@ TEST_CASE("paint: a later coat covers what lies under it", "[paint]")
   const auto volumes = [&](const std::vector<Coat>& coats)
   {
     const Painting p = painted(coats, mesh, 3);
-    CHECK(p.bare == 0);
-    CHECK(p.bare_cell == -1);
-    CHECK(p.crowded_cell == -1);
+    CHECK(p.bare.empty());
+    CHECK(p.crowded.empty());
     return totals<Geometry::plane>(p.materials, mesh);
   };
   const auto first = volumes({everywhere(0), low, high});
@@ -125,7 +132,7 @@ TEST_CASE("paint: parts of a cell add up to it, and to the domain", "[paint]")
   {
     const Painting p = painted<G>(coats, mesh, 6);
     const Materials& m = p.materials;
-    CHECK(p.bare_cell == -1);
+    CHECK(p.bare.empty());
     CHECK(m.mixed().size() > 20);
     double gap = 0, shift = 0, least = 1;
     for (const std::int32_t c : m.mixed())
@@ -200,8 +207,7 @@ TEST_CASE("paint: coats with an edge in common leave nothing between them",
   CHECK(sums[2].v == Approx(1 - (a.x + b.x) / 2).epsilon(64 * eps));
   // Without the coat below there is no place bare either.
   const Painting two = painted({coats[1], coats[2]}, mesh, 3);
-  CHECK(two.bare == 0);
-  CHECK(two.bare_cell == -1);
+  CHECK(two.bare.empty());
   // What the domains leave of the cells one by one is not nothing.
   const auto left =
       partial_volumes<Geometry::plane>(coats[1].domain, mesh.cells, mesh.x);
@@ -291,13 +297,14 @@ TEST_CASE("paint: what no coat covers is told", "[paint]")
                                   {{0.42, 0.45}, {0.48, 0.45}, {0.48, 0.47}}}),
          0}};
     const Painting p = painted(coats, mesh, 1);
-    CHECK(p.bare == Approx(0.06 * 0.02 / 2).epsilon(1e-12));
-    REQUIRE(p.bare_cell >= 0);
-    CHECK(not coats[0].domain.holds(p.bare_at));
+    CHECK(sum(p.bare) == Approx(0.06 * 0.02 / 2).epsilon(1e-12));
+    REQUIRE(not p.bare.empty());
+    const BarePlace first = p.bare.front();
+    CHECK(not coats[0].domain.holds(first.at));
     const Triangle t =
-        polygon::turned(place(mesh, static_cast<std::size_t>(p.bare_cell)));
+        polygon::turned(place(mesh, static_cast<std::size_t>(first.cell)));
     for (std::size_t k = 0; k < 3; ++k)
-      CHECK(twice_area(t[k], t[(k + 1) % 3], p.bare_at) > 0);
+      CHECK(twice_area(t[k], t[(k + 1) % 3], first.at) > 0);
     // The cells are full all the same.
     CHECK(totals<Geometry::plane>(p.materials, mesh)[0].v
           == Approx(1).epsilon(16 * eps));
@@ -306,16 +313,18 @@ TEST_CASE("paint: what no coat covers is told", "[paint]")
   {
     const Painting p =
         painted({{Domain::rectangle({-1, -1}, {0.55, 2}), 1}}, mesh, 2);
-    CHECK(p.bare == Approx(0.45).epsilon(1e-13));
-    CHECK(p.bare_at.x > 0.55);
+    CHECK(sum(p.bare) == Approx(0.45).epsilon(1e-13));
+    for (const BarePlace& b : p.bare)
+      CHECK(b.at.x > 0.55);
+    CHECK(std::ranges::is_sorted(p.bare, {}, &BarePlace::cell));
     const auto sums = totals<Geometry::plane>(p.materials, mesh);
     CHECK(sums[0].v + sums[1].v == Approx(1).epsilon(16 * eps));
   }
   SECTION("no coats at all")
   {
     const Painting p = painted({}, mesh, 2);
-    CHECK(p.bare == Approx(1).epsilon(64 * eps));
-    CHECK(p.bare_cell == 0);
+    CHECK(sum(p.bare) == Approx(1).epsilon(64 * eps));
+    CHECK(p.bare.size() == 72);
   }
 }
 
@@ -331,7 +340,7 @@ TEST_CASE("paint: more materials than a cell can hold are told", "[paint]")
     return paint<Geometry::plane>(coats, cell, x, n);
   };
   const Painting fits = stripes(most_parts);
-  CHECK(fits.crowded_cell == -1);
+  CHECK(fits.crowded.empty());
   REQUIRE(fits.materials.mixed().size() == 1);
   const auto parts = fits.materials.parts(0);
   REQUIRE(parts.size() == most_parts);
@@ -343,7 +352,7 @@ TEST_CASE("paint: more materials than a cell can hold are told", "[paint]")
         parts[k].fraction
         == Approx(from * from - (from - 0.1) * (from - 0.1)).epsilon(64 * eps));
   }
-  CHECK(stripes(most_parts + 1).crowded_cell == 0);
+  CHECK(stripes(most_parts + 1).crowded == std::vector{0});
   // The same material twice is one part.
   const std::vector<Coat> twice = {
       everywhere(0),

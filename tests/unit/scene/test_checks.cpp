@@ -141,3 +141,56 @@ TEST_CASE("checks: NaN lies outside of every range", "[scene]")
   CHECK(from_to(0, 1).words() == "0 <= x <= 1");
   CHECK(Range{-infinity, 3, true, false}.words() == "<= 3");
 }
+
+TEST_CASE("checks: regions in any shape, and the reader's complaints",
+          "[scene]")
+{
+  Scene scene = block();
+  const auto add = [&](const std::string& shape) -> Region&
+  {
+    Region& r = scene.region.emplace_back();
+    r.material = "steel";
+    r.shape = shape;
+    return r;
+  };
+  add("everywhere");
+  Region& low = add("rectangle");
+  low.low = {-1, -1};
+  low.high = {1, 0.5};
+  Region& disc = add("circle");
+  disc.centre = {2.1, 0.5};
+  disc.radius = 0.2;
+  Region& half = add("half_plane");
+  half.point = {1.9, 0};
+  half.normal = {-1, 0};
+  add("polygon").points = {{0, 0}, {1, 1}, {1, 0}};
+  CHECK(complaints(scene) == "");
+
+  // The half-plane's material is behind its normal: here beyond the mesh.
+  scene.region[3].point = {2, 0};
+  CHECK(complaints(scene).starts_with("region.3: lies outside the mesh"));
+  scene.region[3].normal = {1, 0};
+  CHECK(complaints(scene) == "");
+
+  // Shapes whose box the checks do not know are asked for, by their keys.
+  std::string asked;
+  const RegionReader reader = [&](const std::string& key, const Region& region)
+  {
+    asked += key + " " + region.shape + "\n";
+    return DomainOutline{{0, 1}, {1, 2}, {}};
+  };
+  CHECK(test::text_of(check(scene, test::libraries(), {}, {}, reader))
+        == "region.4: lies outside the mesh, which is (0, 0) to (2, 1); its "
+           "box is (0, 1) to (1, 2)\n");
+  CHECK(asked == "region.4 polygon\n");
+  const RegionReader crossing = [](const std::string& key, const Region&)
+  { return DomainOutline{{0, 0}, {0, 0}, {{key + ".points", "crossed", {}}}}; };
+  CHECK(test::text_of(check(scene, test::libraries(), {}, {}, crossing))
+        == "region.4.points: crossed\n");
+
+  // Nothing of a prescribed motion is made of materials.
+  Scene turned = scene;
+  turned.region.resize(1);
+  turned.motion = {{1, 0.5}, 1};
+  CHECK(complaints(turned).find("region.0: is not used") != std::string::npos);
+}

@@ -51,6 +51,24 @@ radius = 0.05
 law = "elastic"
 E = 1
 nu = 0
+[[region]]
+material = "m"
+shape = "everywhere"
+[[region]]
+material = "m"
+shape = "polygon"
+points = [[0.5, -1], [1.5, 0], [0.5, 1]]
+[[region]]
+material = "m"
+shape = "half_plane"
+point = [1, 0]
+normal = [0, 2]
+[[region]]
+material = "m"
+shape = "file"
+file = "part.svg"
+height = 0.5
+at = [0.75, -0.5]
 [[stage]]
 name = "first"
 duration = 2
@@ -136,6 +154,14 @@ TEST_CASE("describe: what was written is what was understood", "[scene]")
   CHECK(json["mesh"]["diagonal"] == "right");
   CHECK(json["mesh"]["grading"]["growth"] == 1.2);
   CHECK(json["material"]["m"]["E"] == 1);
+  CHECK(json["region"].size() == 4);
+  CHECK(json["region"][0]
+        == nlohmann::json({{"material", "m"}, {"shape", "everywhere"}}));
+  CHECK(json["region"][1]["points"]
+        == nlohmann::json({{0.5, -1}, {1.5, 0}, {0.5, 1}}));
+  CHECK(json["region"][2]["normal"] == nlohmann::json({0, 2}));
+  CHECK(json["region"][3]["file"] == "part.svg");
+  CHECK(json["region"][3]["at"] == nlohmann::json({0.75, -0.5}));
   CHECK(json["stage"].size() == 2);
   CHECK(json["stage"][0]["gravity"][0] == 0);
   CHECK(json["stage"][0]["gravity"][1]["value"] == nlohmann::json({0, -9.81}));
@@ -173,7 +199,8 @@ TEST_CASE("key reference: every key says what it is", "[scene]")
        {"title", "mesh.corners", "mesh.grading.growth", "boundary.NAME.side",
         "material.NAME.law", "material.NAME.hardening",
         "stage.NAME.boundary.NAME.velocity_y", "motion.revolutions",
-        "remap.max_loss", "output.picture.NAME.at", "tracer.NAME.radius"})
+        "remap.max_loss", "output.picture.NAME.at", "tracer.NAME.radius",
+        "region.NUMBER.material", "region.NUMBER.points"})
     CHECK(seen.contains(key));
 }
 
@@ -187,6 +214,9 @@ TEST_CASE("key reference: facts stand beside the key", "[scene]")
         "material.NAME.law: text, elastic, j2, required\n",
         "material.NAME.hardening: number [Pa], >= 0, default 0\n"
         "    Slope of the yield stress. Law j2.\n",
+        "region.NUMBER.points: list of points [x, y] [m], required\n"
+        "    Corners of the polygon, either way round. Only with shape = "
+        "\"polygon\".\n",
         "remap.mode: text, lagrangian, ale, eulerian, required\n",
         "remap.smoother: text, average, optimise, default optimise\n",
         "solver.line_search: true or false, default true\n"})
