@@ -51,7 +51,8 @@ struct Interface
 /// What the cell is as a whole.
 struct Mixed
 {
-  /// Means over the volumes of the shares at the end, f0_k exp(theta_k);
+  /// Means over the volumes of the shares at the end, f0_k exp(theta_k) (of
+  /// a laminate's stresses at the start);
   /// theta = ln(sum of f0_k exp(theta_k) / sum of f0_k). The derivatives are
   /// by the common `de` and `p`, exact for consistent tangents of the laws.
   Driven mean;
@@ -101,9 +102,10 @@ struct EqualStrain
 /// Two layers, bonded: one traction on their interface, and strains that
 /// differ by sym(a x n) with the common strain as their mean.
 ///
-/// Exact for two shares and a plane interface. With more, `first` is one layer
-/// and all others, which then have one strain, are the other. Without an
-/// interface: EqualPressure.
+/// The means of strain and stress, p with it, are weighted by the fractions at
+/// the start. Exact for two shares and a plane interface. With more, `first` is
+/// one layer and all others, which then have one strain, are the other. Without
+/// an interface: EqualPressure.
 struct Laminate
 {
   static constexpr std::string_view name = "laminate";

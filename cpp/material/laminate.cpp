@@ -231,18 +231,11 @@ private:
   void assemble()
   {
     const auto& [a, b] = _layers;
-    _mean = a.weight * a.value() + b.weight * b.value();
-    _mean_by_de = a.weight * a.by_de() + b.weight * b.by_de();
-    _mean_by_x.setZero();
-    _opening.setZero();
-    for (const Layer& layer : _layers)
-    {
-      const Eigen::RowVector3d opening = layer.opening(_N);
-      _mean_by_x +=
-          layer.weight
-          * (layer.by_unknowns(_N) + (layer.value() - _mean) * opening);
-      _opening += layer.weight * opening;
-    }
+    _mean = a.fraction * a.value() + b.fraction * b.value();
+    _mean_by_de = a.fraction * a.by_de() + b.fraction * b.by_de();
+    _mean_by_x =
+        a.fraction * a.by_unknowns(_N) + b.fraction * b.by_unknowns(_N);
+    _opening = a.weight * a.opening(_N) + b.weight * b.opening(_N);
     const Eigen::Matrix<double, 2, 6> T = traction();
     _residual << T * (a.value() - b.value()), _mean[at_p] - _p;
     const Eigen::Matrix<double, 2, 3> slope_a = T * a.by_unknowns(_N),

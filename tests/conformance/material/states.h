@@ -26,15 +26,17 @@ inline State begin(const AnyLaw& law, const Sample& sample)
   return start;
 }
 
-inline Moduli moduli(const AnyLaw& law, const State& start, const Sample& sample)
+inline Moduli moduli(const AnyLaw& law, const State& start,
+                     const Sample& sample)
 {
   return std::visit([&](const auto& l)
                     { return l.moduli(start.point(), sample.dt); }, law);
 }
 
-inline Response update(const AnyLaw& law, const Sample& sample, const State& start,
-                const Voigt& de, double theta, std::vector<double>& q,
-                TangentKind kind = TangentKind::consistent)
+inline Response update(const AnyLaw& law, const Sample& sample,
+                       const State& start, const Voigt& de, double theta,
+                       std::vector<double>& q,
+                       TangentKind kind = TangentKind::consistent)
 {
   Response answer;
   q = start.q;
@@ -48,15 +50,15 @@ inline Response update(const AnyLaw& law, const Sample& sample, const State& sta
   return answer;
 }
 
-inline Response update(const AnyLaw& law, const Sample& sample, const State& start,
-                const Voigt& de, double theta)
+inline Response update(const AnyLaw& law, const Sample& sample,
+                       const State& start, const Voigt& de, double theta)
 {
   std::vector<double> q;
   return update(law, sample, start, de, theta, q);
 }
 
 inline void advance(const AnyLaw& law, const Sample& sample, State& state,
-             const Voigt& de, double theta)
+                    const Voigt& de, double theta)
 {
   std::vector<double> q;
   const Response a = update(law, sample, state, de, theta, q);
@@ -64,7 +66,8 @@ inline void advance(const AnyLaw& law, const Sample& sample, State& state,
 }
 
 /// A state that a random path of a few steps has led to.
-inline State random_state(const AnyLaw& law, const Sample& sample, Random& random)
+inline State random_state(const AnyLaw& law, const Sample& sample,
+                          Random& random)
 {
   State state = begin(law, sample);
   for (int k = 0; k < 4; ++k)
