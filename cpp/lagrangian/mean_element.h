@@ -63,10 +63,14 @@ protected:
   const char* strain_cell(const State& state, int cell,
                           std::span<const double> z);
   void settle_answer(int cell);
-  double inertia_share(int cell, double rho, const double* x) const;
   virtual void gather(const State& state, int cell, std::span<const double> z,
                       CellInput& in, double* x) const;
   virtual void add_tangent(int cell, CellInput& in) const;
+  /// Is it the bubble of a fluid, which is carried from step to step?
+  virtual bool bubble_remembers() const
+  {
+    return medium().fluid() and _options.element == scene::Element::mini;
+  }
   virtual const Balance& balance(int) const { return _balance; }
   void accept_stress(State& state) const override;
 
@@ -86,6 +90,18 @@ private:
   {
     Kernel R, J, B, R_damping, J_damping;
   };
+  /// A fluid's bubble in this step.
+  struct Bubble
+  {
+    double mu;                  ///< shear modulus that holds it [Pa]
+    double rho;                 ///< density [kg/m3]
+    std::array<double, 2> u_n;  ///< its place at the start, as remembered [m]
+    std::array<double, 2> grad; ///< of p at the start [Pa/m]
+  };
+  void begin_bubbles(const State& state);
+  void place_bubbles(const State& state, const Constants& c);
+  void hold_bubble(int cell, CellInput& in) const;
+  void gather_bubble(const State& state, int cell, CellInput& in) const;
   void use_cell_pressure(int cell, CellInput& in) const;
   void project_pressure(int cell, const CellInput& in, double* R,
                         double* J) const;
@@ -104,6 +120,8 @@ protected:
   std::vector<Cell> _cell;
 
 private:
-  std::vector<int> _all; ///< owned cells
+  std::vector<int> _all;       ///< owned cells
+  std::vector<Bubble> _bubble; ///< of a fluid
+  bool _placed = false;        ///< bubbles at the start of this step
 };
 } // namespace mmale::lagrangian

@@ -394,7 +394,7 @@ void MixedElement::gather(const State& state, int c, std::span<const double> z,
   if (_of_cell[c] < 0)
   {
     const Medium& medium = _media[state.materials->pure(c)];
-    in.memory = medium.fluid() ? inertia_share(c, in.rho, x) : 1;
+    in.memory = medium.fluid() ? 0 : 1;
     return;
   }
   const Mixture& m = _mixture[_of_cell[c]];
@@ -403,7 +403,8 @@ void MixedElement::gather(const State& state, int c, std::span<const double> z,
     fluid = fluid and (is_void(part.material) or _media[part.material].fluid());
   in.mean_rho = in.rho;
   in.rho /= m.fill;
-  in.memory = fluid ? inertia_share(c, in.rho, x) : 1;
+  in.memory = fluid ? 0 : 1;
+  in.rho_b = in.rho;
   in.fill = m.fill;
   in.kept = 1;
   for (int d = 0; d < 2; ++d)

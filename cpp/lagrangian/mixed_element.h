@@ -72,6 +72,8 @@ private:
   void gather(const State& state, int cell, std::span<const double> z,
               CellInput& in, double* x) const override;
   const Balance& balance(int cell) const override;
+  /// Cells change hands: a fluid's bubble only follows the total forces.
+  bool bubble_remembers() const override { return false; }
   void accept_parts(State& state, std::span<const double> z) const;
   void send_parts(State& state) const;
 
