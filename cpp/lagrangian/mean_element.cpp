@@ -269,7 +269,7 @@ void MeanElement::residual(const State& state, int c, std::span<const double> z,
   std::copy_n(R11, 9, R);
   if (constant_strain)
     project_pressure(c, in, R, nullptr);
-  if (_options.element != scene::Element::mini)
+  if (not has_bubble(c))
     return;
   balance(c).B(B, in, constants, x);
   if (_newmark)
@@ -300,7 +300,7 @@ void MeanElement::jacobian(const State& state, int c, std::span<const double> z,
     std::copy_n(A + 11 * i, 9, J + 9 * i);
   if (constant_strain)
     project_pressure(c, in, nullptr, J);
-  if (_options.element != scene::Element::mini)
+  if (not has_bubble(c))
     return;
   const Condensation K(A[9 * 11 + 9], A[9 * 11 + 10], A[10 * 11 + 9],
                        A[10 * 11 + 10]);

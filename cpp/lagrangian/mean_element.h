@@ -66,6 +66,10 @@ protected:
   virtual void gather(const State& state, int cell, std::span<const double> z,
                       CellInput& in, double* x) const;
   virtual void add_tangent(int cell, CellInput& in) const;
+  virtual bool has_bubble(int) const
+  {
+    return _options.element == scene::Element::mini;
+  }
   /// Is it the bubble of a fluid, which is carried from step to step?
   virtual bool bubble_remembers() const
   {

@@ -151,10 +151,6 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
 void MixedElement::begin_step(const State& state, double dt)
 {
   find_cells(state);
-  if (std::getenv("DBG")) { for (int c : _mixed) { auto& m = _mixture[_of_cell[c]]; auto n = _domain.cells[c][0]; std::fprintf(stderr, "mixed %d (%g %g) fill %g centre %g %g %g rho %g\n", c, state.x[2*n], state.x[2*n+1], m.fill, m.centre[0], m.centre[1], m.centre[2], state.density[c]); }
-    double lo = 1e300, hi = -1e300; for (int c : _pure[0]) { lo = std::min(lo, state.density[c]); hi = std::max(hi, state.density[c]); } std::fprintf(stderr, "pure %zu rho %.17g %.17g\n", _pure[0].size(), lo, hi);
-    for (int c : _pure[0]) if (state.s[4*c] != state.s[4*c]) std::fprintf(stderr, "nan %d\n", c);
-    for (int n = 0; n < _domain.num_nodes(); ++n) std::fprintf(stderr, "node %g %g p %g v %g %g a %g %g\n", state.x[2*n], state.x[2*n+1], state.p[n], state.v[2*n], state.v[2*n+1], state.a[2*n], state.a[2*n+1]); }
   MeanElement::begin_step(state, dt);
   // any stiffness of the scene's: it only sets p of nodes that bear nothing
   _K_open = 0;
@@ -419,7 +415,7 @@ void MixedElement::gather(const State& state, int c, std::span<const double> z,
   if (not m.open)
     return;
   in.fill = m.spray ? 0 : open_fill;
-  in.kept = 0;
+  in.kept = 0; // no bubble
   in.ln_J = 0;
   in.theta = 0;
   for (int v = 0; v < 3; ++v)

@@ -72,6 +72,11 @@ private:
   void gather(const State& state, int cell, std::span<const double> z,
               CellInput& in, double* x) const override;
   const Balance& balance(int cell) const override;
+  bool has_bubble(int cell) const override
+  {
+    return MeanElement::has_bubble(cell)
+           and (_of_cell[cell] < 0 or not _mixture[_of_cell[cell]].open);
+  }
   /// Cells change hands: a fluid's bubble only follows the total forces.
   bool bubble_remembers() const override { return false; }
   void accept_parts(State& state, std::span<const double> z) const;
