@@ -145,9 +145,9 @@ std::vector<std::string> closure_names()
 }
 
 Outcome open_volume(std::span<Share> shares, const Voigt& de, double dt,
-                    TangentKind kind, Mixed& mixed)
+                    TangentKind kind, Mixed& mixed, double p)
 {
-  return EqualPressure{}(shares, de, 0, dt, kind, {}, mixed);
+  return EqualPressure{}(shares, de, p, dt, kind, {}, mixed);
 }
 
 Moduli moduli(std::span<const Share> shares, double dt)

@@ -127,14 +127,18 @@ AnyClosure make_closure(std::string_view name);
 /// All names, the default first.
 std::vector<std::string> closure_names();
 
-/// The volume that the shares fill, each unloaded to p = 0: `mixed.volume`.
+/// The volume that the shares fill, each unloaded to `p`: `mixed.volume`.
 ///
 /// Where it is less than J, volume of the cell at the end over that at the
 /// start, the cell is open: void has the rest, and the answers left in
 /// `shares` and `mixed` are those of the step. Otherwise void has closed, and
 /// the shares answer to a pressure, together filling J.
+///
+/// @param[in] p that counts as none [Pa]. Hypoplastic sand falls from p_min to
+///              0 over a volume strain of 0.1 (its `apex_stiffness`): at 0 it
+///              would keep a cell closed by that much, at 2 p_min it does not
 Outcome open_volume(std::span<Share> shares, const Voigt& de, double dt,
-                    TangentKind kind, Mixed& mixed);
+                    TangentKind kind, Mixed& mixed, double p = 0);
 
 /// Moduli at the start of a step: G as all shear alike, K as all are under one
 /// pressure.

@@ -332,7 +332,8 @@ TEST_CASE("closure: derivatives are those of the answer",
   for (int trial = 0; trial < trials; ++trial)
   {
     const std::vector<Part> parts = cell(kind, random);
-    const double p = parts[1].start.p + kind.stress * random.unit(); // tension too
+    const double p =
+        parts[1].start.p + kind.stress * random.unit(); // tension too
     const Question centre{.de = random.deviator(kind.strain, 2),
                           .p = p,
                           .dt = kind.dt,
