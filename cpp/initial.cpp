@@ -182,8 +182,8 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
     if (k < 0)
       continue;
     state.P[slot] = media[k].is_void() ? 0 : p;
-    state.density[slot] =
-        media[k].begin({.p = p}, 0, std::span(state.history).subspan(h * slot, h));
+    state.density[slot] = media[k].begin(
+        {.p = p}, 0, std::span(state.history).subspan(h * slot, h));
   }
   mixture::fill(state);
 }
@@ -273,8 +273,9 @@ Balance settle(Simulation& sim)
     trial.history.clear(); // total stress: the water stays as it is
     trial.p_w.clear();
     trial.apex.clear();
-    lagrangian::Problem problem(sim.domain, std::span(&elastic, 1), sim.scene.symmetry,
-                                sim.scene.solver, std::nullopt, sim.clock);
+    lagrangian::Problem problem(sim.domain, std::span(&elastic, 1),
+                                sim.scene.symmetry, sim.scene.solver,
+                                std::nullopt, sim.clock);
     problem.set_stage(stage, trial);
     problem.rest_under_gravity();
     for (int i = 0; i < max_rounds and balance.settled > 0.1 * enough; ++i)

@@ -136,10 +136,9 @@ void keep(output::Archive& archive, const mesh::Domain& domain, State& state)
     width[i] = fields(state)[i]->size() / slots;
   int most = 1;
   for (std::size_t r = 0; r < state.materials->mixed().size(); ++r)
-    most = std::max(most, static_cast<int>(
-                              state.materials
-                                  ->parts(static_cast<std::int32_t>(r))
-                                  .size()));
+    most = std::max(
+        most, static_cast<int>(
+                  state.materials->parts(static_cast<std::int32_t>(r)).size()));
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, domain.comm);
   auto rows = archive.loading() ? std::vector<double>()
                                 : rows_of(state, cells, width, most);

@@ -352,14 +352,13 @@ output::Ledger Monitor::ledger() const
                    .end = integral(_sim.state.density),
                    .through_surface = turn * passed.mass.through,
                    .booked = _seeped + turn * passed.mass.at_walls});
-  for (std::int32_t k = 0;
-       const auto& [name, material] : _sim.scene.material)
+  for (std::int32_t k = 0; const auto& [name, material] : _sim.scene.material)
   {
     if (not _sim.state.materials)
       break;
     const auto [volume, mass] = amount(k);
-    const auto& [v, m] = std::pair(passed.material_volume[name],
-                                   passed.material_mass[name]);
+    const auto& [v, m] =
+        std::pair(passed.material_volume[name], passed.material_mass[name]);
     out.push_back({.name = name + "_volume",
                    .unit = "m3" + per,
                    .end = volume,

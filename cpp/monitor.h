@@ -80,10 +80,10 @@ private:
   std::vector<std::array<double, 2>> _reactions;
   std::vector<double> _discharge; ///< of each boundary, with seepage
   output::Ledger _start;
-  double _volume = 0;               ///< at the end of the last step
-  double _seeped = 0;               ///< mass of water that flowed in
-  double _lagrangian_volume = 0;    ///< change by the material's own motion
-  std::vector<double> _derived[4];  ///< von Mises, stress, history, grain gap
+  double _volume = 0;              ///< at the end of the last step
+  double _seeped = 0;              ///< mass of water that flowed in
+  double _lagrangian_volume = 0;   ///< change by the material's own motion
+  std::vector<double> _derived[4]; ///< von Mises, stress, history, grain gap
   std::vector<std::vector<double>> _of_materials;
   std::vector<double> _of_water[4]; ///< p_w, porosity, effective stress and
                                     ///< pressure

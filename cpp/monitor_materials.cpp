@@ -23,7 +23,8 @@ void Monitor::add_material_fields(std::vector<output::NamedField>& out)
   using output::Location;
   const State& state = _sim.state;
   const std::size_t cells = _sim.domain.num_cells();
-  const auto h = static_cast<std::size_t>(_sim.problem->element().num_history());
+  const auto h =
+      static_cast<std::size_t>(_sim.problem->element().num_history());
   _of_materials.clear();
   std::vector<std::string> names;
   const auto add = [&](std::string name, std::int32_t k, auto&& value)

@@ -3,8 +3,8 @@
 
 #include "history_fields.h"
 #include "material/water.h"
-#include "mixture.h"
 #include "mesh/corners.h"
+#include "mixture.h"
 #include "output/archive.h"
 #include "placement.h"
 #include "point_layout.h"
@@ -210,8 +210,8 @@ struct RemapStep::Impl
   std::optional<::remap::PointMesh> points; // with layout `quadrature`
   ::remap::Remapper remapper;
   std::optional<::remap::Smoothing> smoothing; // Eulerian meshes need none
-  std::vector<double> inflow_density; // by boundary
-  std::vector<double> unstressed;     // likewise, four numbers each
+  std::vector<double> inflow_density;          // by boundary
+  std::vector<double> unstressed;              // likewise, four numbers each
   std::span<const double> nothing() const
   {
     return std::span(unstressed).first(domain.boundary_names.size());
@@ -375,10 +375,7 @@ void RemapStep::Impl::add_materials(State& state,
                     .weights = metric,
                     .inflow = unstressed,
                     .carriers = solid});
-  fields.push_back(
-      {.values = state.P,
-       .inflow = nothing(),
-       .carriers = solid});
+  fields.push_back({.values = state.P, .inflow = nothing(), .carriers = solid});
   travelling.take(state.history, &*state.materials);
   travelling.add_to(fields);
 }
@@ -431,10 +428,8 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
   if (not state.a.empty())
   {
     velocity = boundary_velocity(state);
-    per_mass.push_back({.values = state.v,
-                        .components = 2,
-                        .group = 2,
-                        .inflow = velocity});
+    per_mass.push_back(
+        {.values = state.v, .components = 2, .group = 2, .inflow = velocity});
     if (not state.p_rate.empty())
       nodes.push_back({.values = state.p_rate, .inflow = nothing()});
   }
@@ -445,19 +440,17 @@ bool RemapStep::Impl::transport(State& state, std::span<const double> x,
     cells.push_back({.values = values, .inflow = inflow.back()});
   }
   const ::remap::Ledger before = ledger;
-  const auto outcome = remapper.remap(state.x, x,
-                                      {.cells = cells,
-                                       .points = at_points,
-                                       .nodes = nodes,
-                                       .per_mass = per_mass,
-                                       .density = several() ? -1 : 0,
-                                       .materials =
-                                           several() ? &*state.materials
-                                                     : nullptr,
-                                       .of_materials = of_materials,
-                                       .material_density =
-                                           several() ? 0 : -1},
-                                      host, ledger);
+  const auto outcome =
+      remapper.remap(state.x, x,
+                     {.cells = cells,
+                      .points = at_points,
+                      .nodes = nodes,
+                      .per_mass = per_mass,
+                      .density = several() ? -1 : 0,
+                      .materials = several() ? &*state.materials : nullptr,
+                      .of_materials = of_materials,
+                      .material_density = several() ? 0 : -1},
+                     host, ledger);
   log.cycles = remapper.report().cycles;
   if (outcome != ::remap::Outcome::ok)
   {
@@ -481,12 +474,12 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
   const auto scope = clock.scope("4 admissible");
   double largest = 0, clipped = 0;
   const auto h = static_cast<std::size_t>(travelling.numbers());
-  const auto admit = [&](const auto& law, std::size_t q, std::size_t numbers,
-                         bool owned)
+  const auto admit =
+      [&](const auto& law, std::size_t q, std::size_t numbers, bool owned)
   {
-    const double part = law.admit(
-        Eigen::Map<material::Voigt>(state.s.data() + 4 * q), state.P[q],
-        std::span(state.history).subspan(h * q, numbers));
+    const double part =
+        law.admit(Eigen::Map<material::Voigt>(state.s.data() + 4 * q),
+                  state.P[q], std::span(state.history).subspan(h * q, numbers));
     clipped += owned and part > 0;
     largest = std::max(largest, part);
   };
@@ -496,12 +489,13 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
       const auto k = state.materials->material(slot);
       if (k < 0)
         continue;
-      std::visit([&](const auto& law)
-                 {
-                   admit(law, slot, material::num_history(laws[k]),
-                         slot < domain.num_owned_cells);
-                 },
-                 laws[k]);
+      std::visit(
+          [&](const auto& law)
+          {
+            admit(law, slot, material::num_history(laws[k]),
+                  slot < domain.num_owned_cells);
+          },
+          laws[k]);
     }
   else
     std::visit(

@@ -46,9 +46,9 @@ struct Passed
 
 struct Exchange
 {
-  Passed volume;                        ///< [m3/m]
-  Passed mass;                          ///< [kg/m]
-  std::map<std::string, Passed> tracer; ///< integral of each
+  Passed volume;                                 ///< [m3/m]
+  Passed mass;                                   ///< [kg/m]
+  std::map<std::string, Passed> tracer;          ///< integral of each
   std::map<std::string, Passed> material_volume; ///< of each of several
   std::map<std::string, Passed> material_mass;
 };

@@ -52,9 +52,9 @@ material::Moduli Element::moduli(const State& state, int c, double dt,
           mean.G += G / _num_points;
           mean.K += K / _num_points;
           if (medium().flows() and fast)
-            mean.K +=
-                1 / medium().water()->compressibility(material::pores(at.q))
-                / _num_points;
+            mean.K += 1
+                      / medium().water()->compressibility(material::pores(at.q))
+                      / _num_points;
         }
       });
   return mean;
@@ -70,8 +70,9 @@ double Element::grain_gap(const State& state, int c) const
   double density = 0;
   std::vector<double> q(_num_history);
   for (int i = c * _num_points; i < (c + 1) * _num_points; ++i)
-    density += begin({.void_ratio = point(state, i).q[medium().void_ratio()]}, 0, q)
-               / _num_points;
+    density +=
+        begin({.void_ratio = point(state, i).q[medium().void_ratio()]}, 0, q)
+        / _num_points;
   return std::log(state.density[c] / density);
 }
 
@@ -248,7 +249,8 @@ std::unique_ptr<Element> make_element(const mesh::Domain& domain,
   if (laws.size() > 1)
     return std::make_unique<MixedElement>(domain, laws, symmetry, options);
   if (options.layout == scene::Layout::mean)
-    return std::make_unique<MeanElement>(domain, laws, symmetry, options, water);
+    return std::make_unique<MeanElement>(domain, laws, symmetry, options,
+                                         water);
   if (options.points == 3)
     return std::make_unique<PointElement<3>>(domain, laws, symmetry, options,
                                              water);

@@ -190,7 +190,7 @@ protected:
   scene::Solver _options;
   double _water_gained = 0;
   const PorePressure* _seepage = nullptr; ///< with water that flows
-  int _num_points, _num_history; ///< the most of any material
+  int _num_points, _num_history;          ///< the most of any material
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
   std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]

@@ -11,8 +11,8 @@
 namespace mmale::lagrangian
 {
 MeanElement::MeanElement(const mesh::Domain& domain,
-                         std::span<const material::AnyLaw> laws, scene::Symmetry symmetry,
-                         const scene::Solver& options,
+                         std::span<const material::AnyLaw> laws,
+                         scene::Symmetry symmetry, const scene::Solver& options,
                          const std::optional<scene::Water>& water)
     : Element(domain, laws, symmetry, options, water, 1),
       _balance{{_axisymmetric ? *form_balance_R_axi : *form_balance_R_plane,
@@ -130,8 +130,8 @@ int MeanElement::evaluate_cells(const Medium& medium,
         rotate(Voigt(state.s.data() + 4 * c), m.cosine, m.sine),
         medium.driven_pressure(state.P[c], turned), turned};
     const double p_w = pore_pressure(c); // 0 but where it flows
-    if (material::drive(answers(p_w), start, m.de, cell.p - p_w, dt,
-                        cell.guess, kind, q, cell.answer)
+    if (material::drive(answers(p_w), start, m.de, cell.p - p_w, dt, cell.guess,
+                        kind, q, cell.answer)
         != Outcome::ok)
       return "the law asks for a smaller step";
     medium.turn(q, m.cosine, m.sine);

@@ -13,8 +13,9 @@ namespace mmale::lagrangian
 class MeanElement : public Element
 {
 public:
-  MeanElement(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
-              scene::Symmetry symmetry, const scene::Solver& options,
+  MeanElement(const mesh::Domain& domain,
+              std::span<const material::AnyLaw> laws, scene::Symmetry symmetry,
+              const scene::Solver& options,
               const std::optional<scene::Water>& water);
 
   void begin_step(const State& state, double dt) override;

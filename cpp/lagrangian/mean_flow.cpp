@@ -58,7 +58,8 @@ void MeanElement::gather_flow(const State& state, int c,
   const double c_uniaxial = _flow->compliance[c];
   in.compliance = _flow->consistent ? 0 : lumping * c_uniaxial;
   in.mobility = _flow->mobility;
-  in.share = c_uniaxial / (c_uniaxial + medium().water()->compressibility(pores));
+  in.share =
+      c_uniaxial / (c_uniaxial + medium().water()->compressibility(pores));
   std::fill_n(in.size, 4, 0.0);
   for (int v = 0; v < 3; ++v)
     for (int i = 0; i < 2; ++i)

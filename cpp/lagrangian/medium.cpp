@@ -5,7 +5,8 @@ namespace mmale::lagrangian
 {
 Medium::Medium(const material::AnyLaw& law,
                const std::optional<scene::Water>& water)
-    : _law(&law), _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
+    : _law(&law),
+      _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
       _num_history(material::num_history(law, water.has_value()))
 {
   if (water)

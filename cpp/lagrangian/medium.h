@@ -21,10 +21,7 @@ public:
   Medium(const material::AnyLaw& law, const std::optional<scene::Water>& water);
 
   const material::AnyLaw& law() const { return *_law; }
-  bool is_void() const
-  {
-    return std::holds_alternative<material::Void>(*_law);
-  }
+  bool is_void() const { return std::holds_alternative<material::Void>(*_law); }
   /// Has its deviator no memory?
   bool fluid() const { return _fluid; }
   /// Has the law a zero-stress floor?
@@ -34,7 +31,7 @@ public:
   bool flows() const { return _flows; }
   const std::optional<material::Water>& water() const { return _water; }
   double water_density() const { return _rho_f; } ///< [kg/m3]
-  int void_ratio() const { return _void_ratio; } ///< where it is, or -1
+  int void_ratio() const { return _void_ratio; }  ///< where it is, or -1
 
   /// Numbers of a point at the start of a run, and its density [kg/m3].
   /// @param[in]  p_w pore pressure, if there is water [Pa]

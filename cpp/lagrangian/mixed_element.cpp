@@ -24,8 +24,8 @@ constexpr double open_fill = 1e-6;
 /// Void that is left of a gap that has closed; the remap sweeps it up.
 constexpr double closed_fill = 1e-13;
 
-/// Part of the ersatz stiffness that holds nodes to where they were, lest crumbs
-/// that touch nothing float about in statics.
+/// Part of the ersatz stiffness that holds nodes to where they were, lest
+/// crumbs that touch nothing float about in statics.
 constexpr double grounded = 1e-4;
 
 /// Shares of the vertices of a cell in a point.
@@ -118,11 +118,14 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
   std::size_t slot = materials.first_slot(m.row);
   int bodies = 0;
   double fill = 0, mass = 0;
+  std::array<double, 3> middle{0, 0, 0}; // about an axis not the third parts
   for (const Part& part : materials.parts(m.row))
   {
+    const auto at = shares_at(_domain, state.x, c, part.centroid);
+    for (int v = 0; v < 3; ++v)
+      middle[v] += part.fraction * at[v] - part.fraction / 3;
     if (const double rho = state.density[slot++]; not is_void(part.material))
     {
-      const auto at = shares_at(_domain, state.x, c, part.centroid);
       ++bodies;
       fill += part.fraction;
       mass += part.fraction * rho;
@@ -143,8 +146,9 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
   m.spray = with_void and fill < _options.spray_below;
   for (int v = 0; v < 3; ++v)
   {
-    m.mass_centre[v] = mass > 0 ? m.mass_centre[v] / mass : 1. / 3;
-    m.centre[v] = with_void and not m.gap ? m.centre[v] / fill : 1. / 3;
+    m.mass_centre[v] = mass > 0 ? m.mass_centre[v] / mass - middle[v] : 1. / 3;
+    m.centre[v] =
+        with_void and not m.gap ? m.centre[v] / fill - middle[v] : 1. / 3;
   }
 }
 
@@ -173,9 +177,8 @@ material::Moduli MixedElement::moduli(const State& state, int c, double dt,
     const material::Point at{
         Voigt(state.s.data() + 4 * slot), state.P[slot],
         std::span(state.history).subspan(h * slot, medium.num_history())};
-    const auto [G, K] =
-        medium.with([&](const auto& answers)
-                    { return answers(0).moduli(at, dt); });
+    const auto [G, K] = medium.with([&](const auto& answers)
+                                    { return answers(0).moduli(at, dt); });
     sum.G += f * G;
     sum.K += f / K; // one pressure
     fill += f;
@@ -301,65 +304,68 @@ const char* MixedElement::answer_mixture(const State& state, int c,
   for (int v = 0; v < 3; ++v)
     p += m.centre[v] * z[3 * _domain.cells[c][v] + 2];
   fill_shares(state, m, cell.motion);
-  const material::Interface interface = find_interface(state, c, m);
-  const auto ask = [&](double pressure, material::Mixed& out)
-  {
-    return std::visit(
-        [&](const auto& closure)
-        {
-          return closure(_share, cell.motion.de, pressure, dt, tangent_kind(),
-                         interface, out);
-        },
-        _closure);
-  };
-  material::Mixed mixed;
-  double bearing = m.fill; // the part of the cell that s is a mean over
   m.open = m.spray;
-  if (m.spray)
-    return answer_spray(state, c);
-  if (m.gap)
+  if (m.gap and not m.spray)
   {
-    if (material::open_volume(_share, cell.motion.de, dt, tangent_kind(), mixed)
+    material::Mixed unloaded;
+    if (material::open_volume(_share, cell.motion.de, dt, tangent_kind(),
+                              unloaded)
         != Outcome::ok)
       return "a law asks for a smaller step";
-    const double J = std::exp(cell.motion.ln_J);
-    m.open = mixed.volume < J;
-    if (m.open)
-      bearing = mixed.volume / J;
-    else
-    {
-      if (ask(p, mixed) != Outcome::ok)
-        return "a law asks for a smaller step";
-      mixed.mean.theta += std::log(m.bodies);
-    }
+    m.open = unloaded.volume < std::exp(cell.motion.ln_J);
   }
-  else if (ask(p, mixed) != Outcome::ok)
+  if (m.open)
+  {
+    bear_nothing(state, c);
+    return nullptr;
+  }
+  material::Mixed mixed;
+  const material::Interface interface = find_interface(state, c, m);
+  const Outcome outcome = std::visit(
+      [&](const auto& closure)
+      {
+        return closure(_share, cell.motion.de, p, dt, tangent_kind(), interface,
+                       mixed);
+      },
+      _closure);
+  if (outcome != Outcome::ok)
     return "a law asks for a smaller step";
-  std::size_t slot =
-      state.materials->first_slot(m.row) - state.materials->num_cells();
+  take_parts(state, c);
+  cell.answer = mixed.mean;
+  if (m.gap)
+    cell.answer.theta += std::log(m.bodies);
+  for (Voigt* mean : {&cell.answer.s, &cell.answer.ds_dp})
+    *mean *= m.fill;
+  cell.answer.ds_de *= m.fill;
+  cell.p = m.fill * p;
+  settle_answer(c);
+  return nullptr;
+}
+
+/// What each material has answered.
+void MixedElement::take_parts(const State& state, int c)
+{
+  const Motion& motion = _cell[c].motion;
+  const Materials& materials = *state.materials;
+  const int row = _mixture[_of_cell[c]].row;
+  std::size_t slot = materials.first_slot(row) - materials.num_cells();
   auto share = _share.begin();
-  for (const Part& part : state.materials->parts(m.row))
+  for (const Part& part : materials.parts(row))
   {
     PartEnd& end = _part[slot++];
     end = {Voigt::Zero(), 0, 0, nan};
     if (is_void(part.material))
       continue;
-    end = {rotate(share->answer.s, cell.motion.cosine, cell.motion.sine),
-           share->p, share->answer.theta, share->guess};
-    _media[part.material].turn(share->q, cell.motion.cosine, cell.motion.sine);
+    end = {rotate(share->answer.s, motion.cosine, motion.sine), share->p,
+           share->answer.theta, share->guess};
+    _media[part.material].turn(share->q, motion.cosine, motion.sine);
     ++share;
   }
-  cell.answer = mixed.mean;
-  for (Voigt* mean : {&cell.answer.s, &cell.answer.ds_dp})
-    *mean *= bearing;
-  cell.answer.ds_de *= bearing;
-  cell.p = m.open ? 0 : m.fill * p;
-  settle_answer(c);
-  return nullptr;
 }
 
-/// Pieces too small for a cell to tell what they bear fly on as they are.
-const char* MixedElement::answer_spray(const State& state, int c)
+/// Bodies with room about them take no part in the cell's strain: they are
+/// unloaded, and fly on as they are.
+void MixedElement::bear_nothing(const State& state, int c)
 {
   Cell& cell = _cell[c];
   const Mixture& m = _mixture[_of_cell[c]];
@@ -380,7 +386,6 @@ const char* MixedElement::answer_spray(const State& state, int c)
   cell.answer = {};
   cell.p = 0;
   settle_answer(c);
-  return nullptr;
 }
 
 void MixedElement::gather(const State& state, int c, std::span<const double> z,
@@ -469,8 +474,7 @@ double MixedElement::ersatz(const State& state, int c) const
   const double A =
       _axisymmetric ? mesh::cell_volume(_domain, state.x, c, false) : V;
   const double inertia = _newmark ? rho * _newmark->c_a * V : 0;
-  return (1 - m.bodies) * _options.ersatz_stiffness
-         * (_G[c] * V / A + inertia);
+  return (1 - m.bodies) * _options.ersatz_stiffness * (_G[c] * V / A + inertia);
 }
 
 void MixedElement::jacobian(const State& state, int c,
@@ -512,9 +516,7 @@ void MixedElement::accept_parts(State& state, std::span<const double> z) const
       if (not is_void(parts[k].material))
         filled += parts[k].fraction * std::exp(_part[first + k - cells].theta);
     // its fraction at the end
-    const double fill = m.open  ? filled / J
-                        : m.gap ? 1 - closed_fill
-                                : m.fill;
+    const double fill = m.open ? filled / J : m.gap ? 1 - closed_fill : m.fill;
     for (std::size_t k = 0; k < parts.size(); ++k)
     {
       Part& part = parts[k];

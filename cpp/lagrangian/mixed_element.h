@@ -41,22 +41,22 @@ private:
   /// A cell that several materials share, the void among them.
   struct Mixture
   {
-    int row = 0;     ///< of the state's materials
-    double fill = 1; ///< of the cell's volume, by what bears load
+    int row = 0;                ///< of the state's materials
+    double fill = 1;            ///< of the cell's volume, by what bears load
     double bodies = 1;          ///< of it, by all that is not void
     bool spray = false;         ///< too little of bodies to bear anything
-    bool gap = false;         ///< void between two bodies
-    bool open = false;        ///< in this trial state
-    double centre[3] = {}; ///< of what bears load: shares of the vertices
+    bool gap = false;           ///< void between two bodies
+    bool open = false;          ///< in this trial state
+    double centre[3] = {};      ///< of what bears load: shares of the vertices
     double mass_centre[3] = {}; ///< of the mass
   };
   /// A material's part in the trial state.
   struct PartEnd
   {
-    Voigt s;          ///< turned [Pa]
-    double p;         ///< [Pa]
-    double theta;     ///< [-]
-    double guess;     ///< of theta, or NaN
+    Voigt s;      ///< turned [Pa]
+    double p;     ///< [Pa]
+    double theta; ///< [-]
+    double guess; ///< of theta, or NaN
   };
   void find_cells(const State& state);
   void find_mixture(const State& state, int cell, Mixture& m) const;
@@ -65,7 +65,8 @@ private:
   material::Interface find_interface(const State& state, int cell,
                                      const Mixture& m) const;
   double ersatz(const State& state, int cell) const;
-  const char* answer_spray(const State& state, int cell);
+  void take_parts(const State& state, int cell);
+  void bear_nothing(const State& state, int cell);
   void fill_shares(const State& state, const Mixture& m, const Motion& motion);
   bool is_void(int material) const { return _media[material].is_void(); }
   void add_tangent(int cell, CellInput& in) const override;
@@ -82,18 +83,18 @@ private:
   void accept_parts(State& state, std::span<const double> z) const;
   void send_parts(State& state) const;
 
-  Balance _shared;                      ///< kernels of mixed cells
+  Balance _shared; ///< kernels of mixed cells
   material::AnyClosure _closure;
   scene::VoidRule _rule;
-  double _K_open = 1; ///< of open gaps, for `open_fill` [Pa]
-  std::vector<std::vector<int>> _pure;  ///< owned cells of each material
-  std::vector<int> _mixed;              ///< owned mixed cells
-  std::vector<Mixture> _mixture;        ///< of them
-  std::vector<int> _of_cell;            ///< index into `_mixed`, or -1
-  std::vector<std::uint8_t> _empty;     ///< owned cells of void alone
-  std::vector<PartEnd> _part;           ///< of the parts of all rows
-  std::vector<double> _part_history;    ///< likewise
-  std::vector<material::Share> _share;  ///< of the cell at work
-  std::vector<double> _turned;          ///< history of its shares
+  double _K_open = 1;                  ///< of open gaps, for `open_fill` [Pa]
+  std::vector<std::vector<int>> _pure; ///< owned cells of each material
+  std::vector<int> _mixed;             ///< owned mixed cells
+  std::vector<Mixture> _mixture;       ///< of them
+  std::vector<int> _of_cell;           ///< index into `_mixed`, or -1
+  std::vector<std::uint8_t> _empty;    ///< owned cells of void alone
+  std::vector<PartEnd> _part;          ///< of the parts of all rows
+  std::vector<double> _part_history;   ///< likewise
+  std::vector<material::Share> _share; ///< of the cell at work
+  std::vector<double> _turned;         ///< history of its shares
 };
 } // namespace mmale::lagrangian

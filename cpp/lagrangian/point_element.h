@@ -21,8 +21,9 @@ template <int n>
 class PointElement final : public Element
 {
 public:
-  PointElement(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
-               scene::Symmetry symmetry, const scene::Solver& options,
+  PointElement(const mesh::Domain& domain,
+               std::span<const material::AnyLaw> laws, scene::Symmetry symmetry,
+               const scene::Solver& options,
                const std::optional<scene::Water>& water);
 
   void begin_step(const State& state, double dt) override;

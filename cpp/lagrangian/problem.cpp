@@ -28,7 +28,8 @@ node_map(const mesh::Domain& domain)
 }
 } // namespace
 
-Problem::Problem(const mesh::Domain& domain, std::span<const material::AnyLaw> laws,
+Problem::Problem(const mesh::Domain& domain,
+                 std::span<const material::AnyLaw> laws,
                  scene::Symmetry symmetry, const scene::Solver& options,
                  const std::optional<scene::Water>& water, output::Clock& clock)
     : _domain(domain), _symmetry(symmetry), _options(options), _clock(clock),

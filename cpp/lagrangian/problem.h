@@ -200,9 +200,9 @@ private:
   std::vector<double> _around; ///< is there more than void around a node, and
                                ///< what bears a pressure? Shape (n, 2); empty
                                ///< with one material
-  std::vector<double> _motion;     ///< last step's increment, (nodes, 2)
+  std::vector<double> _motion; ///< last step's increment, (nodes, 2)
   std::vector<std::array<double, 2>> _reactions; ///< of the last solve
-  double _guess_dt = 0;            ///< its step; 0: no guess for the next
+  double _guess_dt = 0; ///< its step; 0: no guess for the next
   Constants _constants;
   std::array<double, 2> _gravity = {0, 0}; ///< at the end of the last step
 

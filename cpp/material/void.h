@@ -16,8 +16,8 @@ struct Void
   static constexpr bool symmetric = true, yields = false, fluid = true;
   static constexpr bool linear_pressure = true;
 
-  double stiffness = 1; ///< [Pa]; doubled, a void of twice its volume pulls
-                        ///< with 1.4 Pa for 0.7
+  double stiffness = 1;  ///< [Pa]; doubled, a void of twice its volume pulls
+                         ///< with 1.4 Pa for 0.7
   double density = 1e-3; ///< [kg/m3]; a trace, that where void flows in
                          ///< momentum has something to be carried by
 

@@ -260,8 +260,10 @@ struct Solver
   // of cells that several materials share
   std::string closure = "equal_pressure"; ///< name in the library's list
   VoidRule void_rule = VoidRule::by_bodies;
-  double spray_below = 0.01; ///< a cell with less than this of bodies bears nothing
-  double ersatz_stiffness = 0.01; ///< of void in a cell, over what resists there
+  double spray_below =
+      0.01; ///< a cell with less than this of bodies bears nothing
+  double ersatz_stiffness =
+      0.01;                    ///< of void in a cell, over what resists there
   bool plastic_bubble = true;  ///< METHOD.md, form P; off: noisier pressure
   double bubble_spring = 0.05; ///< of layout `quadrature`, METHOD.md; 0: steps
                                ///< fail in plastic flow after remaps

@@ -354,7 +354,8 @@ void keys(V& v, Solver& s)
      "Void in a cell: a free surface, a gap that closes before load passes, or "
      "by_bodies, a gap where it lies between two."},
     s.void_rule);
-  v({"spray_below", "-",
+  v({"spray_below",
+     "-",
      "Cells with less than this of bodies beside void bear nothing.",
      {0, 1, false, true}},
     s.spray_below);
