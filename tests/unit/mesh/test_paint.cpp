@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <unistd.h>
 
 using namespace mmale;
 using Catch::Approx;
@@ -117,7 +118,8 @@ TEST_CASE("regions: all shapes, painted as written", "[unit][regions]")
   {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    const fs::path folder = fs::temp_directory_path() / "mmale_test_regions";
+    const fs::path folder = fs::temp_directory_path()
+                            / ("mmale_regions_" + std::to_string(::getpid()));
     if (rank == 0)
     {
       fs::create_directories(folder);
