@@ -18,6 +18,7 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
       _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
       _num_points(points),
       _num_history(material::num_history(law, water.has_value())),
+      _void_ratio(material::void_ratio_index(law)),
       _volume(domain.num_owned_cells),
       _history(static_cast<std::size_t>(_num_history) * points
                * domain.num_owned_cells),
@@ -37,8 +38,6 @@ Element::Element(const mesh::Domain& domain, const material::AnyLaw& law,
   {
     if (field.size == 4)
       _tensors.push_back(at);
-    if (field.name == "void_ratio")
-      _void_ratio = at;
     at += field.size;
   }
 }
@@ -87,11 +86,9 @@ double Element::begin(const material::Start& start, double p_w,
         const double rho = material::initial_density(law, start);
         if (not _water)
           return rho;
-        material::Pores pores{p_w, _porosity};
-        if (has_void_ratio())
-          pores.n = q[_void_ratio] / (1 + q[_void_ratio]);
-        material::set_pores(pores, q);
-        return rho + pores.n * _rho_f;
+        const double n = material::porosity(_law, q, _porosity);
+        material::set_pores({p_w, n}, q);
+        return rho + n * _rho_f;
       },
       _law);
 }

@@ -214,7 +214,7 @@ protected:
   const PorePressure* _seepage = nullptr; ///< with water that flows
   int _num_points, _num_history;
   std::vector<int> _tensors; ///< where in the history one begins
-  int _void_ratio = -1;      ///< where it is in the history; -1: nowhere
+  int _void_ratio;           ///< where it is in the history; -1: nowhere
   const Newmark* _newmark = nullptr;
   std::vector<double> _volume, _history; ///< of the trial state
   std::vector<double> _G; ///< shear modulus of a cell in this step [Pa]
