@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "initial.h"
 
+#include "effective.h"
 #include "lagrangian/kernel.h"
-#include "material/drive.h"
 #include "simulation.h"
 #include <algorithm>
 #include <array>
@@ -190,24 +190,9 @@ scene::Stage at_rest(scene::Stage stage)
 double beyond_the_law(const Simulation& sim)
 {
   State copy = sim.state;
-  double worst = 0;
-  const std::size_t h = sim.problem->element().num_history();
-  const std::size_t own = material::num_history(*sim.law);
-  std::visit(
-      [&](const auto& law)
-      {
-        for (std::size_t q = 0; q < copy.P.size(); ++q)
-        {
-          const auto history = std::span(copy.history).subspan(h * q, h);
-          if (sim.scene.water)
-            copy.P[q] -= material::pores(history).p_w;
-          const double cut =
-              law.admit(Eigen::Map<material::Voigt>(copy.s.data() + 4 * q),
-                        copy.P[q], history.first(own));
-          worst = std::max(worst, cut);
-        }
-      },
-      *sim.law);
+  if (sim.scene.water)
+    to_effective(copy);
+  double worst = admit(*sim.law, copy, sim.domain.num_owned_cells).largest;
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, sim.domain.comm);
   return worst;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "effective.h"
 #include "history_fields.h"
-#include "material/water.h"
 #include "mesh/corners.h"
 #include "output/archive.h"
 #include "placement.h"
@@ -151,12 +151,6 @@ struct RemapStep::Impl
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void add_stress(State& state, std::vector<::remap::Field>& fields);
   void make_admissible(State& state, RemapLog& log);
-  void to_effective(State& state) const;
-  void to_total(State& state) const;
-  int water_numbers() const
-  {
-    return scene.water ? material::Water::num_history : 0;
-  }
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -360,24 +354,8 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
   if (not law)
     return;
   const auto scope = clock.scope("4 admissible");
-  double largest = 0, clipped = 0;
-  std::visit(
-      [&](const auto& l)
-      {
-        const int owned = state.points * domain.num_owned_cells;
-        for (int q = 0; q < state.points * domain.num_cells(); ++q)
-        {
-          const double part = l.admit(
-              Eigen::Map<material::Voigt>(state.s.data() + 4 * q), state.P[q],
-              std::span(state.history)
-                  .subspan(static_cast<std::size_t>(history) * q,
-                           history - water_numbers()));
-          if (q < owned)
-            clipped += part > 0;
-          largest = std::max(largest, part);
-        }
-      },
-      *law);
+  const Cut cut = admit(*law, state, domain.num_owned_cells);
+  double largest = cut.largest, clipped = static_cast<double>(cut.points);
   host.max(std::span(&largest, 1));
   host.sum(std::span(&clipped, 1));
   log.clipped = static_cast<std::int64_t>(clipped);
@@ -396,38 +374,19 @@ void RemapStep::keep(output::Archive& archive)
   archive("remap/nodes", m.ledger.nodes);
 }
 
-/// What travels is p' and p_w, so that neither has the other's jumps: cells and
-/// nodes have effective pressures between this and `to_total`.
-void RemapStep::Impl::to_effective(State& state) const
-{
-  const auto h = static_cast<std::size_t>(history);
-  for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
-    state.P[q] -=
-        material::pores(std::span(state.history).subspan(h * q, h)).p_w;
-  for (std::size_t n = 0; n < state.p_w.size(); ++n)
-    state.p[n] -= state.p_w[n];
-}
-
-void RemapStep::Impl::to_total(State& state) const
-{
-  const auto h = static_cast<std::size_t>(history);
-  for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
-    state.P[q] +=
-        material::pores(std::span(state.history).subspan(h * q, h)).p_w;
-  for (std::size_t n = 0; n < state.p_w.size(); ++n)
-    state.p[n] += state.p_w[n];
-}
-
 void RemapStep::run(State& state, RemapLog& log)
 {
   std::vector<double> x;
   if (not _impl->smooth(state, x, log))
     return;
-  _impl->to_effective(state);
+  // what travels is p' and p_w, so that neither has the other's jumps
+  if (_impl->scene.water)
+    to_effective(state);
   const bool moved = _impl->transport(state, x, log);
   if (moved)
     _impl->make_admissible(state, log);
-  _impl->to_total(state);
+  if (_impl->scene.water)
+    to_total(state);
   if (not moved)
     return;
   _impl->home = state.x;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "element.h"
 
+#include "effective.h"
 #include "mean_element.h"
 #include "mesh/corners.h"
 #include "point_element.h"
@@ -143,11 +144,7 @@ FlowTangent Element::flow_tangent(const State&, int, std::span<const double>,
 
 double Element::driven_pressure(const State& state, int q) const
 {
-  if (not _flows)
-    return state.P[q];
-  const auto h = static_cast<std::size_t>(_num_history);
-  return state.P[q]
-         - material::pores(std::span(state.history).subspan(h * q, h)).p_w;
+  return _flows ? effective_pressure(state, q) : state.P[q];
 }
 
 material::Point Element::point(const State& state, int q) const
