@@ -32,16 +32,52 @@ std::array<double, 3> shares(int points, int q)
     return lagrangian::points<6>()[q];
   return {1. / 3, 1. / 3, 1. / 3};
 }
-} // namespace
 
-Ground::Ground(const scene::Scene& scene, const mesh::Domain& domain,
-               const lagrangian::Element& element)
-    : _scene(scene), _element(element),
-      _surface(scene.initial.surface.value_or(top_of(domain)))
+/// The ground at a height, at rest under its weight.
+struct Layer
 {
-  if (not scene.stage.empty() and scene.stage.front().gravity)
-    _gravity = -(*scene.stage.front().gravity)[1](0);
-}
+  double pressure;      ///< total [Pa]
+  double excess;        ///< of the vertical stress over the pressure [Pa]
+  double pore_pressure; ///< 0 without water [Pa]
+  double void_ratio;    ///< NaN where the scene leaves it to the law
+};
+
+class Ground
+{
+public:
+  /// Collective.
+  Ground(const scene::Scene& scene, const mesh::Domain& domain,
+         const lagrangian::Element& element)
+      : _scene(scene), _element(element),
+        _surface(scene.initial.surface.value_or(top_of(domain)))
+  {
+    if (not scene.stage.empty() and scene.stage.front().gravity)
+      _gravity = -(*scene.stage.front().gravity)[1](0);
+  }
+
+  Layer at(double y) const
+  {
+    const auto& initial = _scene.initial;
+    const double e = void_ratio(y), p_w = pore_pressure(y);
+    if (not initial.K0)
+      return {initial.pressure.value_or(0), 0, p_w, e};
+    // horizontal is K0 times vertical, of the effective stresses
+    const double vertical = vertical_stress(y);
+    const double excess = (vertical - p_w) * 2 * (1 - *initial.K0) / 3;
+    return {vertical - excess, excess, p_w, e};
+  }
+
+private:
+  double void_ratio(double y) const;
+  double density(double y) const; ///< of all, water too [kg/m3]
+  double pore_pressure(double y) const;
+  double vertical_stress(double y) const; ///< total, compression positive [Pa]
+
+  const scene::Scene& _scene;
+  const lagrangian::Element& _element;
+  double _surface;     ///< [m]
+  double _gravity = 0; ///< downward [m/s2]
+};
 
 double Ground::void_ratio(double y) const
 {
@@ -97,21 +133,7 @@ double Ground::vertical_stress(double y) const
          + _gravity * mass;
 }
 
-double Ground::excess(double y) const
-{
-  if (not _scene.initial.K0)
-    return 0;
-  // horizontal is K0 times vertical, of the effective stresses
-  const double effective = vertical_stress(y) - pore_pressure(y);
-  return effective * 2 * (1 - *_scene.initial.K0) / 3;
-}
-
-double Ground::pressure(double y) const
-{
-  if (not _scene.initial.K0)
-    return _scene.initial.pressure.value_or(0);
-  return vertical_stress(y) - excess(y);
-}
+} // namespace
 
 void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
                   const lagrangian::Element& element, State& state)
@@ -124,10 +146,10 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
   state.p_w.resize(scene.water and scene.water->seepage() ? nodes : 0);
   for (std::size_t n = 0; n < nodes; ++n)
   {
-    const double y = domain.initial_x[2 * n + 1];
-    state.p[n] = ground.pressure(y);
+    const Layer layer = ground.at(domain.initial_x[2 * n + 1]);
+    state.p[n] = layer.pressure;
     if (not state.p_w.empty())
-      state.p_w[n] = ground.pore_pressure(y);
+      state.p_w[n] = layer.pore_pressure;
   }
   state.s.assign(4 * cells * points, 0);
   state.P.resize(cells * points);
@@ -141,11 +163,12 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
     double y = 0;
     for (int v = 0; v < 3; ++v)
       y += share[v] * domain.initial_x[2 * domain.cells[c][v] + 1];
-    const double half = 0.5 * ground.excess(y), p_w = ground.pore_pressure(y);
-    state.P[q] = ground.pressure(y);
+    const auto [p, excess, p_w, e] = ground.at(y);
+    const double half = 0.5 * excess;
+    state.P[q] = p;
     material::Voigt::Map(state.s.data() + 4 * q) << half, -2 * half, half, 0;
     state.density[c] +=
-        element.begin({state.P[q] - p_w, ground.void_ratio(y)}, p_w,
+        element.begin({p - p_w, e}, p_w,
                       std::span(state.history).subspan(h * q, h))
         / points;
   }
