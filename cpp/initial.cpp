@@ -235,7 +235,11 @@ Balance settle(Simulation& sim)
   balance.as_laid = balance.settled = sim.problem->imbalance(state, stage.step);
   if (balance.as_laid > 0.1 * enough)
   {
-    const auto [G, K] = sim.problem->moduli(state, stage.step);
+    // The water stays as it is, so what changes is effective stress, and the
+    // skeleton's modulus has to tell how much: with the water's beside it sand
+    // near a surface was taken beyond what it bears.
+    const auto [G, K] =
+        sim.problem->moduli(state, stage.step, lagrangian::Meets::skeleton);
     const material::AnyLaw elastic =
         material::Elastic{.E = 9 * K * G / (3 * K + G),
                           .nu = (3 * K - 2 * G) / (6 * K + 2 * G),
@@ -244,8 +248,10 @@ Balance settle(Simulation& sim)
     trial.history.clear(); // total stress: the water stays as it is
     trial.p_w.clear();
     trial.apex.clear();
+    scene::Solver options = sim.scene.solver;
+    options.bubble_spring = 0; // its force would be gone in the next round
     lagrangian::Problem problem(sim.domain, elastic, sim.scene.symmetry,
-                                sim.scene.solver, std::nullopt, sim.clock);
+                                options, std::nullopt, sim.clock);
     problem.set_stage(stage, trial);
     problem.rest_under_gravity();
     for (int i = 0; i < max_rounds and balance.settled > 0.1 * enough; ++i)
@@ -272,8 +278,9 @@ Balance settle(Simulation& sim)
   if (not(balance.settled <= enough))
     throw std::runtime_error(std::format(
         "the initial stress is not in balance with the weight and the loads of "
-        "stage '{}': a force of {:.1e} of the weight is left on a node",
-        stage.name, balance.settled));
+        "stage '{}': a force of {:.1e} of the weight is left on a node; {:.1e} "
+        "of a stress is beyond what the material bears",
+        stage.name, balance.settled, beyond_the_law(sim)));
   if (const double cut = beyond_the_law(sim); cut > 1e-6)
     throw std::runtime_error(
         std::format("the initial stress is more than the material bears: {:.1e}"

@@ -50,7 +50,7 @@ void Element::begin_step(const State& state, double dt)
 }
 
 material::Moduli Element::moduli(const State& state, int c, double dt,
-                                 bool fast) const
+                                 Meets what) const
 {
   material::Moduli mean{0, 0};
   with_medium(
@@ -62,8 +62,13 @@ material::Moduli Element::moduli(const State& state, int c, double dt,
           const auto [G, K] = medium(0).moduli(at, dt);
           mean.G += G / _num_points;
           mean.K += K / _num_points;
-          if (_flows and fast)
-            mean.K += 1 / _water->compressibility(material::pores(at.q))
+          const bool has = _water and not _flows; // water, in K
+          const bool wants =
+              _water
+              and (what == Meets::wave or (has and what == Meets::slow_step));
+          if (has != wants)
+            mean.K += (wants ? 1 : -1)
+                      / _water->compressibility(material::pores(at.q))
                       / _num_points;
         }
       });

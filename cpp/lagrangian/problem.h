@@ -96,7 +96,8 @@ public:
   const Element& element() const { return *_element; }
 
   /// Mean moduli of all cells [Pa]. Collective.
-  material::Moduli moduli(const State& state, double dt) const;
+  material::Moduli moduli(const State& state, double dt,
+                          Meets what = Meets::slow_step) const;
 
   /// What the laws took in the last step. Collective.
   material::Effort effort() const;
