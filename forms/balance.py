@@ -8,8 +8,16 @@
 
 with f = rho g, and dp, df the increments of the step. The bubble is a Maxwell
 element: elastic it sees the increments only (a held load does not creep), in
-plastic flow (lambda > 0) the total too (the pressure stays smooth). In a fluid it
-moves at the velocity u_b / dt against the total alone, and mu is viscosity / dt.
+plastic flow (lambda > 0) the total too (the pressure stays smooth).
+
+In a fluid u_b is the place of the bubble, which the total forces of the step's end
+hold it at, and the volume equation takes what it has moved since the start:
+
+    momentum   - ∫ grad p . (grad v u_b)   more: it draws at the nodes
+    volume     - ∫ q div (u_b - u_n)
+    bubble     dp = p, df = f
+
+The first is the transpose of how grad p, and so the bubble, turns with the nodes.
 
 The laws enter as numbers per cell, with their derivatives for the tangent, which
 is Newton's: `derivative` takes care of all that depends on w, so an added term
@@ -50,9 +58,13 @@ s = Coefficient(per_cell(5))  # stress deviator [Pa]
 theta = Coefficient(per_cell())  # volume strain that the law needs for p [-]
 ln_J = Coefficient(per_cell())  # volume strain of the cell [-]
 mu = Coefficient(per_cell())  # shear modulus at the start of the step [Pa]
-memory = Coefficient(per_cell())  # 1, or 0 of a fluid: nothing holds its bubble
+mu_b = Coefficient(per_cell())  # of the bubble [Pa]
+memory = Coefficient(per_cell())  # 1, or 0 of a fluid
+u_n = Coefficient(B)  # place of a fluid's bubble at the start of the step [m]
+grad_p = Coefficient(per_cell(2))  # of a fluid, at the start of the step [Pa/m]
 lam = Coefficient(per_cell())  # plastic flow over the step, 2 G dLambda [-]
 rho = Coefficient(per_cell())  # density [kg/m3]
+rho_b = Coefficient(per_cell())  # of the bubble [kg/m3]
 # Tangent of the laws, by the gradient h of a variation du, and by p.
 ds_dh = Coefficient(per_cell(5, 5))  # [Pa]; with geometric stiffness
 ds_dp = Coefficient(per_cell(5))  # [-]
@@ -65,6 +77,12 @@ g_n = Constant(mesh, shape=(2,))  # and at its start
 dt = Constant(mesh)  # step [s]
 
 
+def turned(h, u_b):
+    """grad p . (grad v u_b), h the gradient of v."""
+    along = as_vector((h[0] * u_b[0] + h[1] * u_b[1], h[2] * u_b[0] + h[3] * u_b[1]))
+    return dot(grad_p, along)
+
+
 def residual(axisymmetric):
     """Virtual work of all forces on the three test functions."""
     r = x[0] if axisymmetric else 1
@@ -75,12 +93,14 @@ def residual(axisymmetric):
     momentum = inner(s, h) - p * divergence(h) - rho * dot(g, v)
     volume = q * (theta - ln_J)
     drive = p - memory * p_n + lam * p
-    force = rho * (g - memory * g_n + lam * g)
+    force = rho_b * (g - memory * g_n + lam * g)
+    moved = e_b - gradient(u_n, r, axisymmetric)
     stabilise = (
-        2 * mu * inner(deviator(strain(e_b)), strain(h_b))
+        2 * mu_b * inner(deviator(strain(e_b)), strain(h_b))
         - drive * divergence(h_b)
         - dot(force, v_b)
-        - q * divergence(e_b)
+        - q * divergence(moved)
+        - turned(h, u_b)
     )
     return (momentum + volume) * r * dx + stabilise * r * dx_bubble
 
@@ -90,11 +110,13 @@ def tangent(axisymmetric):
     r = x[0] if axisymmetric else 1
     R = residual(axisymmetric)
     du, dp, _ = split(TrialFunctions(W))
+    _, _, v_b = split(TestFunctions(W))
     dh = gradient(du, r, axisymmetric)
     dtheta = dot(dtheta_dh, dh) + dtheta_dp * dp
     dlam = dot(dlam_dh, dh) + dlam_dp * dp
     return (
         derivative(R, w, TrialFunction(W))
+        - turned(dh, v_b) * r * dx_bubble
         + derivative(R, s, ds_dh * dh + ds_dp * dp)
         + derivative(R, theta, dtheta)
         + derivative(R, lam, dlam)

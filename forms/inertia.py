@@ -7,7 +7,8 @@ acceleration, velocity and pressure rate at the end of the step as lines,
     a = a_0 + c_a u,    v = v_0 + c_v u,    dp/dt = r_0 + c_r p.
 
     bubble, layout mean         rho (a - a_n + lambda a + c_a u_b) . v_b
-                                (of a fluid without a_n)
+                                (of a fluid without a_n, and of the acceleration
+                                that the forces of the step's end give alone)
     damping                     b (2 mu dev D(v) - dp/dt I) : grad v
 
 The bubbles of layout `quadrature` have none. They hold a stress from step to step
@@ -15,7 +16,7 @@ but no velocity, and the lumped nodes do not feel them: forces on the bubble alo
 would give it energy that nothing has lost.
 """
 
-from balance import dlam_dh, dlam_dp, lam, memory, mu, rho, w
+from balance import dlam_dh, dlam_dp, lam, memory, mu, rho_b, w
 from mini import (
     B,
     V,
@@ -26,6 +27,7 @@ from mini import (
     dx_bubble,
     gradient,
     mesh,
+    per_cell,
     Q,
     split,
     strain,
@@ -46,6 +48,7 @@ import ufl
 
 a_0 = Coefficient(V)  # acceleration at the end, had the step no motion [m/s2]
 a_n = Coefficient(V)  # acceleration at the start [m/s2]
+to_end = Coefficient(per_cell())  # of a: 1, or of a fluid 1 / (1 + alpha) [-]
 v_0 = Coefficient(V)  # velocity, likewise [m/s]
 r_0 = Coefficient(Q)  # rate of p, likewise [Pa/s]
 c_a = Constant(mesh)  # [1/s2]
@@ -59,8 +62,8 @@ def bubble_mean(axisymmetric):
     r = x[0] if axisymmetric else 1
     u, _, u_b = split(ufl.split(w))
     _, _, v_b = split(TestFunctions(W))
-    a = a_0 + c_a * u
-    return rho * dot(a - memory * a_n + lam * a + c_a * u_b, v_b) * r * dx_bubble
+    a = to_end * (a_0 + c_a * u)
+    return rho_b * dot(a - memory * a_n + lam * a + c_a * u_b, v_b) * r * dx_bubble
 
 
 def damping(axisymmetric):

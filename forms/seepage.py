@@ -29,18 +29,21 @@ from balance import (  # noqa: F401; FFCx finds coefficients by their names here
     dtheta_dp,
     g,
     g_n,
+    grad_p,
     lam,
     ln_J,
     memory,
-    mu,
+    mu_b,
     residual,
     rho,
+    rho_b,
     s,
     theta,
+    u_n,
     w,
     w_n,
 )
-from inertia import a_0, a_n, bubble_mean, c_a  # noqa: F401
+from inertia import a_0, a_n, bubble_mean, c_a, to_end  # noqa: F401
 from mini import Q, W, divergence, dx, gradient, mesh, per_cell, split, x
 from ufl import (
     Coefficient,

@@ -26,6 +26,8 @@ struct CellInput
   double w_n[11]; ///< at its start
   double s[5];
   double theta, ln_J, mu, memory, lam, rho;
+  double mu_b, rho_b, to_end; ///< of the bubble
+  double u_n[2], grad_p[2];
   double ds_dh[25];
   double ds_dp[5];
   double dtheta_dh[5];

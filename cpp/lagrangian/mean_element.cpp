@@ -64,6 +64,8 @@ void MeanElement::begin_step(const State& state, double dt)
   Element::begin_step(state, dt);
   for (Cell& cell : _cell)
     cell.guess = std::numeric_limits<double>::quiet_NaN();
+  if (_fluid and _options.element == scene::Element::mini)
+    begin_bubbles(state);
   for (int c = 0; _flow and c < _domain.num_owned_cells; ++c)
   {
     const auto [G, K] = moduli(state, c, dt);
@@ -101,6 +103,8 @@ const char* MeanElement::strain_cell(const State& state, int c,
 int MeanElement::evaluate(const State& state, std::span<const double> z,
                           const Constants& constants, std::string& why)
 {
+  if (not _bubble.empty() and not _placed)
+    place_bubbles(state, constants);
   const auto kind = tangent_kind();
   std::vector<double> turned(_num_history);
   const auto answer = [&](const auto& medium, int c)
@@ -150,31 +154,6 @@ int MeanElement::evaluate(const State& state, std::span<const double> z,
       });
 }
 
-/// What a fluid's bubble remembers: the share of inertia in its stiffness. A
-/// viscous one moves at a velocity, against the total forces of the step's end;
-/// one of mass has an acceleration, which increments change.
-///
-/// @param[in] x corners, shape (3, 3)
-double MeanElement::inertia_share(int c, double rho, const double* x) const
-{
-  if (not _newmark)
-    return 0;
-  const double twice_area =
-      (x[3] - x[0]) * (x[7] - x[1]) - (x[6] - x[0]) * (x[4] - x[1]);
-  double gradients = 0; // sum over corners of |grad l|^2
-  for (int v = 0; v < 3; ++v)
-  {
-    const double *a = x + 3 * ((v + 1) % 3), *b = x + 3 * ((v + 2) % 3);
-    gradients += (std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2))
-                 / (twice_area * twice_area);
-  }
-  // of b = 27 l_0 l_1 l_2 on a triangle of area 1: the integral of b^2, and the
-  // mean eigenvalue of that of 2 dev eps(b) : eps(b)
-  const double mass = 27 * 27 / 2520.0, shape = 81 / 20.0 * 7 / 6 * gradients;
-  const double inertia = rho * _newmark->c_a * mass;
-  return inertia / (inertia + shape * _G[c]);
-}
-
 void MeanElement::gather(const State& state, int c, std::span<const double> z,
                          CellInput& in, double* x) const
 {
@@ -188,10 +167,10 @@ void MeanElement::gather(const State& state, int c, std::span<const double> z,
   in.ln_J = cell.motion.ln_J;
   in.mu = _G[c];
   in.rho = end_density(state, c);
-  in.memory = _fluid ? inertia_share(c, in.rho, x) : 1;
   in.lam = cell.answer.flow;
   if (_newmark)
     gather_newmark(state, c, in.newmark);
+  gather_bubble(state, c, in);
 }
 
 void MeanElement::add_tangent(int c, CellInput& in) const
@@ -215,6 +194,21 @@ std::array<double, 6> MeanElement::forces(const State& state, int c,
   double x[9], R[11] = {};
   gather(state, c, z, in, x);
   _R(R, in, constants, x);
+  if (not _bubble.empty())
+  {
+    double R11[11] = {}, B[22] = {};
+    _R(R11, in, constants, x);
+    _B(B, in, constants, x);
+    if (_newmark)
+    {
+      _inertia.R(R11, in, constants, x);
+      _inertia.B(B, in, constants, x);
+    }
+    const Condensation K(B[18], B[19], B[20], B[21]);
+    const auto [b0, b1] = K.solve(R11[9], R11[10]);
+    for (int i : {0, 1, 3, 4, 6, 7})
+      R[i] -= B[2 * i] * b0 + B[2 * i + 1] * b1;
+  }
   if (constants.b > 0)
     _inertia.R_damping(R, in, constants, x);
   return {R[0], R[1], R[3], R[4], R[6], R[7]};

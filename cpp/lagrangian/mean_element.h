@@ -66,12 +66,23 @@ private:
   {
     Kernel R, J, B, R_damping, J_damping;
   };
+  /// A fluid's bubble in this step.
+  struct Bubble
+  {
+    double mu;                  ///< shear modulus that holds it [Pa]
+    double rho;                 ///< density [kg/m3]
+    std::array<double, 2> u_n;  ///< its place at the start, as remembered [m]
+    std::array<double, 2> grad; ///< of p at the start [Pa/m]
+  };
   void accept_stress(State& state) const override;
+  void begin_bubbles(const State& state);
+  void place_bubbles(const State& state, const Constants& c);
+  void hold_bubble(int cell, CellInput& in) const;
   const char* strain_cell(const State& state, int cell,
                           std::span<const double> z);
   void gather(const State& state, int cell, std::span<const double> z,
               CellInput& in, double* x) const;
-  double inertia_share(int cell, double rho, const double* x) const;
+  void gather_bubble(const State& state, int cell, CellInput& in) const;
   void add_tangent(int cell, CellInput& in) const;
   void use_cell_pressure(int cell, CellInput& in) const;
   void project_pressure(int cell, const CellInput& in, double* R,
@@ -87,5 +98,7 @@ private:
   Inertia _inertia;
   std::unique_ptr<Flow> _flow; ///< with seepage
   std::vector<Cell> _cell;
+  std::vector<Bubble> _bubble; ///< of a fluid
+  bool _placed = false;        ///< bubbles at the start of this step
 };
 } // namespace mmale::lagrangian

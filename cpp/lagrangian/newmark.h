@@ -53,6 +53,14 @@ public:
   /// Increment that the start's motion foresees; the explicit scheme's own.
   double foreseen(const State& state, int unknown) const;
 
+  /// Acceleration that the forces at the start gave alone, without what HHT
+  /// takes from before; of a held unknown its own.
+  double by_forces(const State& state, int unknown) const
+  {
+    return _held[unknown] ? state.a[unknown]
+                          : -state.force[unknown] / _mass[unknown / 2];
+  }
+
   /// Explicit: the increment is `foreseen`.
   bool is_explicit() const { return _scheme.beta == 0; }
   /// Weight of the forces at the end of the step, 1 + alpha.
