@@ -63,15 +63,12 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
       _direction(2 * domain.num_nodes(), 0), _mesh(mesh), _curve(mesh),
       _motion(2 * domain.num_nodes(), 0)
 {
-  const auto surface = [&](std::size_t b)
-  {
-    return std::ranges::find(surfaces, domain.boundary_names[b])
-           != surfaces.end();
-  };
+  for (const std::string& name : domain.boundary_names)
+    _is_surface.push_back(std::ranges::find(surfaces, name) != surfaces.end());
   const std::vector<int> side_of = sides_of_nodes(domain);
   for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
     if (const auto nodes = domain.boundary_nodes(static_cast<int>(b));
-        surface(b))
+        _is_surface[b])
       for (int n : nodes)
         if (side_of[n] != several)
           _kinds[n] = Kind::surface;
@@ -82,10 +79,9 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
       if (side_of[n] == smooth)
         _curved.push_back(n);
     }
+  add_corners(side_of);
   add_sides(side_of);
   turn(domain.initial_x);
-  for (Kind k : _kinds)
-    _on_surface.push_back(k == Kind::surface);
   const auto& around = mesh.node_nodes();
   for (int n = 0; n < mesh.num_nodes(); ++n)
     for (int m : around[n])
@@ -94,6 +90,19 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
                         - ::remap::point(domain.initial_x, n);
       _weight.push_back(1 / ::remap::dot(edge, edge));
     }
+}
+
+/// Nodes at which two stretches meet that are both of free surfaces.
+void Placement::add_corners(std::span<const int> side_of)
+{
+  std::vector<double> others(_domain.num_nodes(), 0);
+  for (const mesh::Facet& f : _domain.facets)
+    if (not _is_surface[f.boundary])
+      others[f.a] = others[f.b] = 1;
+  _domain.node_halo->update(others, 1);
+  for (int n = 0; n < _domain.num_nodes(); ++n)
+    if (side_of[n] == several and others[n] == 0)
+      _corners.push_back(n);
 }
 
 void Placement::add_sides(std::span<const int> side_of)
@@ -179,12 +188,27 @@ void Placement::turn(std::span<const double> x)
       _kinds[n] = bend[s] < straight ? Kind::slide : on_curve(n, x);
   for (int n : _curved)
     _kinds[n] = on_curve(n, x);
+  turn_corners(x);
   _placed = _kinds;
   std::ranges::replace(_placed, Kind::slide, Kind::fixed);
   ::remap::Host host;
   host.node_halo = [this](std::span<double> v, int block)
   { _domain.node_halo->update(v, block); };
   _curve.follow(x, _kinds, host);
+}
+
+/// Corners of free surfaces that have become blunt are nodes like others.
+void Placement::turn_corners(std::span<const double> x)
+{
+  std::vector<double> blunt(_domain.num_nodes(), 0);
+  for (int n : _corners)
+    blunt[n] = n < _domain.num_owned_nodes and on_curve(n, x) == Kind::curve;
+  _domain.node_halo->update(blunt, 1);
+  for (int n : _corners)
+    _kinds[n] = blunt[n] > 0 ? Kind::surface : Kind::fixed;
+  _on_surface.clear();
+  for (Kind k : _kinds)
+    _on_surface.push_back(k == Kind::surface);
 }
 
 /// `curve`, but for corners; of nodes of ours.

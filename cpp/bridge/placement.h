@@ -36,7 +36,8 @@ public:
 
   /// Sliding follows the boundary as it is now; sides that have bent are curved
   /// boundaries, and where one turns by more than 45° at a node this stays with
-  /// the material. To be called before `kinds` are used. Collective.
+  /// the material, as does a corner of a free surface until it is blunter than
+  /// that. To be called before `kinds` are used. Collective.
   /// @param[in] x nodes, shape (nodes, 2) [m]
   void turn(std::span<const double> x);
 
@@ -76,6 +77,8 @@ private:
   /// Sweeps of the averaging a call. Doubled: nothing but time once the
   /// boundary moves evenly.
   static constexpr int sweeps = 20;
+  void add_corners(std::span<const int> side_of);
+  void turn_corners(std::span<const double> x);
   void add_sides(std::span<const int> side_of);
   ::remap::Kind on_curve(int node, std::span<const double> x) const;
   void place_sides(std::vector<double>& x) const;
@@ -86,8 +89,10 @@ private:
 
   const mesh::Domain& _domain;
   std::vector<::remap::Kind> _kinds, _placed;
-  std::vector<int> _curved; ///< nodes of curved boundaries
-  std::vector<std::uint8_t> _on_surface;
+  std::vector<int> _curved;  ///< nodes of curved boundaries
+  std::vector<int> _corners; ///< of free surfaces when first laid
+  std::vector<std::uint8_t> _is_surface; ///< of each boundary
+  std::vector<std::uint8_t> _on_surface; ///< of each node
   std::vector<double> _direction;
   std::vector<Side> _sides;
   const ::remap::Mesh& _mesh;

@@ -114,14 +114,16 @@ struct TimeSeries
   double integral(double t) const;
 };
 
-/// A rigid upright wall that a free surface may come to touch and cannot pass,
-/// like the flank of a punch.
+/// A rigid wall, upright or level, that a free surface may come to touch and
+/// cannot pass: the flank of a punch, the ground that a slope runs out on.
 struct Wall
 {
-  double x = required;         ///< [m]
+  std::optional<double> x;     ///< where an upright one stands [m]
+  std::optional<double> y;     ///< or a level one lies [m]
   std::string grip = "smooth"; ///< "smooth": slides and lifts off; "rough":
                                ///< what has touched it moves with it
-  std::optional<TimeSeries> velocity_y; ///< of a rough wall [m/s]
+  /// Of a rough wall, along it [m/s].
+  std::optional<TimeSeries> velocity_x, velocity_y;
 };
 
 /// Water in the pores of the material; without this table it is dry.
