@@ -197,18 +197,41 @@ void Placement::turn(std::span<const double> x)
   _curve.follow(x, _kinds, host);
 }
 
-/// Corners of free surfaces that have become blunt are nodes like others.
+/// Corners of free surfaces are nodes like others where they have become blunt,
+/// or one of the sides that meet there has been used up.
 void Placement::turn_corners(std::span<const double> x)
 {
-  std::vector<double> blunt(_domain.num_nodes(), 0);
+  std::vector<double> free(_domain.num_nodes(), 0);
   for (int n : _corners)
-    blunt[n] = n < _domain.num_owned_nodes and on_curve(n, x) == Kind::curve;
-  _domain.node_halo->update(blunt, 1);
+    free[n] = n < _domain.num_owned_nodes
+              and (on_curve(n, x) == Kind::curve or used_up(n, x));
+  _domain.node_halo->update(free, 1);
   for (int n : _corners)
-    _kinds[n] = blunt[n] > 0 ? Kind::surface : Kind::fixed;
+    _kinds[n] = free[n] > 0 ? Kind::surface : Kind::fixed;
   _on_surface.clear();
   for (Kind k : _kinds)
     _on_surface.push_back(k == Kind::surface);
+}
+
+/// Are the facets at a node of ours, over their first lengths, further apart
+/// than 1 : 2?
+bool Placement::used_up(int node, std::span<const double> x) const
+{
+  const auto [in, out] = _mesh.boundary_facets(node);
+  if (in < 0 or out < 0)
+    return false;
+  const auto grown = [&](std::int32_t f)
+  {
+    const auto length2 = [&](std::span<const double> at)
+    {
+      const auto d = ::remap::point(at, _mesh.facet(f)[1])
+                     - ::remap::point(at, _mesh.facet(f)[0]);
+      return ::remap::dot(d, d);
+    };
+    return length2(x) / length2(_domain.initial_x);
+  };
+  const double a = grown(in), b = grown(out);
+  return std::max(a, b) > 4 * std::min(a, b);
 }
 
 /// `curve`, but for corners; of nodes of ours.

@@ -37,7 +37,8 @@ public:
   /// Sliding follows the boundary as it is now; sides that have bent are curved
   /// boundaries, and where one turns by more than 45° at a node this stays with
   /// the material, as does a corner of a free surface until it is blunter than
-  /// that. To be called before `kinds` are used. Collective.
+  /// that or one of its sides has been used up. To be called before `kinds` are
+  /// used. Collective.
   /// @param[in] x nodes, shape (nodes, 2) [m]
   void turn(std::span<const double> x);
 
@@ -80,6 +81,7 @@ private:
   void add_corners(std::span<const int> side_of);
   void turn_corners(std::span<const double> x);
   void add_sides(std::span<const int> side_of);
+  bool used_up(int node, std::span<const double> x) const;
   ::remap::Kind on_curve(int node, std::span<const double> x) const;
   void place_sides(std::vector<double>& x) const;
   void follow_boundary();
