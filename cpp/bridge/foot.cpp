@@ -127,7 +127,8 @@ int Foot::move(std::span<const std::uint8_t> at_wall, std::span<double> x) const
       for (int d = 0; d < 2; ++d)
         if (const int n = way.nodes[k]; n >= 0)
           x[2 * n + d] = foot[d]
-                         + static_cast<double>(k) / static_cast<double>(last + 1)
+                         + static_cast<double>(k)
+                               / static_cast<double>(last + 1)
                                * (free[d] - foot[d]);
   }
   if (moved > 0)

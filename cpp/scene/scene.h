@@ -343,9 +343,9 @@ struct Curve
 {
   std::string quantity;       ///< of a boundary or point: displacement_x|y,
                               ///< velocity_x|y, pressure; of a boundary:
-                              ///< reaction_x|y; of a point: stress_xx|yy|zz|xy;
-                              ///< with water also pore_pressure,
-                              ///< effective_stress_xx|yy|zz|xy; with seepage
+                              ///< reaction_x|y, largest place x_max, y_max;
+                              ///< of a point: stress_xx|yy|zz|xy; with water
+                              ///< pore_pressure, effective_stress_..; seepage:
                               ///< discharge of a boundary, outward;
                               ///< of a dynamic body: kinetic_energy,
                               ///< internal_work, external_work, total_energy;
