@@ -201,7 +201,9 @@ scene::Stage at_rest(scene::Stage stage)
          {&condition.traction_x, &condition.traction_y, &condition.pressure})
       now(*series);
     if (condition.wall)
-      stop(condition.wall->velocity_y);
+      for (auto* series :
+           {&condition.wall->velocity_x, &condition.wall->velocity_y})
+        stop(*series);
     if (condition.absorbing) // it carries what it carries at rest
       condition.fixed = true;
     condition.absorbing = false;

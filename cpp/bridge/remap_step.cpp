@@ -2,6 +2,7 @@
 #include "remap_step.h"
 
 #include "effective.h"
+#include "foot.h"
 #include "history_fields.h"
 #include "mesh/corners.h"
 #include "output/archive.h"
@@ -147,7 +148,8 @@ struct RemapStep::Impl
   Impl(const mesh::Domain& domain, const scene::Scene& scene,
        const std::optional<material::AnyLaw>& law, output::Clock& clock);
 
-  bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
+  bool smooth(const State& state, std::span<const std::uint8_t> at_wall,
+              std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void add_stress(State& state, std::vector<::remap::Field>& fields);
   void make_admissible(State& state, RemapLog& log);
@@ -166,6 +168,7 @@ struct RemapStep::Impl
   ::remap::Ledger ledger;
 
   std::optional<Placement> placement;
+  std::optional<Foot> foot;
   std::vector<double> spacing;
   std::vector<::remap::quality::Target> targets;
   std::vector<std::uint8_t> flags;
@@ -207,6 +210,7 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
   placement.emplace(domain, mesh, scene.remap.surface);
+  foot.emplace(domain, scene.remap.surface);
   home = domain.initial_x;
   flags.resize(mesh.num_nodes());
   spacing = ::remap::facet_lengths(mesh, domain.initial_x);
@@ -242,8 +246,9 @@ bool RemapStep::due(const State& state, int number)
   return worst_quality(m.domain, state) < o.quality_below;
 }
 
-bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
-                             RemapLog& log)
+bool RemapStep::Impl::smooth(const State& state,
+                             std::span<const std::uint8_t> at_wall,
+                             std::vector<double>& x, RemapLog& log)
 {
   const auto scope = clock.scope("2 smooth");
   if (not smoothing)
@@ -257,12 +262,14 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
                                    .spacing = spacing,
                                    .targets = targets};
   auto outcome = ::remap::Outcome::inverted_start;
-  placement->turn(state.x);
   if (whole)
   {
+    x = state.x;
+    if (not at_wall.empty())
+      foot->move(at_wall, x);
+    placement->turn(x);
     // the surface first, so that the body follows it where it will be
     constraints.kinds = placement->kinds_placed();
-    x = state.x;
     outcome = smoothing->smooth(x, placement->on_surface(), constraints, host);
     if (outcome == ::remap::Outcome::ok)
     {
@@ -272,6 +279,7 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   }
   if (outcome != ::remap::Outcome::ok)
   {
+    placement->turn(state.x);
     constraints.kinds = placement->kinds();
     x = state.x;
     outcome = smoothing->smooth(x, flags, constraints, host);
@@ -374,10 +382,11 @@ void RemapStep::keep(output::Archive& archive)
   archive("remap/nodes", m.ledger.nodes);
 }
 
-void RemapStep::run(State& state, RemapLog& log)
+void RemapStep::run(State& state, std::span<const std::uint8_t> at_wall,
+                    RemapLog& log)
 {
   std::vector<double> x;
-  if (not _impl->smooth(state, x, log))
+  if (not _impl->smooth(state, at_wall, x, log))
     return;
   // what travels is p' and p_w, so that neither has the other's jumps
   if (_impl->scene.water)

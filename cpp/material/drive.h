@@ -110,7 +110,6 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
   if (LinearPressure<L> or std::isnan(guess))
     guess = -(p - start.p) / K;
   FallingRoot theta(guess);
-  double last = 0, last_theta = std::nan(""); // the evaluation before
   Response r;
   answer.effort = {};
   for (int i = 0; i < max_evaluations; ++i)
@@ -126,16 +125,7 @@ Outcome drive(const L& law, const Point& start, const Voigt& de, double p,
     // and a law for whole tensors adds de and theta up again
     const double digits =
         (std::abs(r.dp_dtheta) + K) * (std::abs(theta.x()) + de.norm()) * 2e-15;
-    // The last digits come by the slope, where two evaluations bear it out: it
-    // is off by d at most, so what is left is d of the excess. History is not
-    // put right: 1e-9 p / K of volume strain.
-    const double d =
-        1 - (excess - last) / (theta.x() - last_theta) / r.dp_dtheta;
-    const bool nearly = std::abs(d) < 1e-3 // not for NaN
-                        and std::abs(excess) <= 1e4 * tolerance;
-    last = excess;
-    last_theta = theta.x();
-    if (LinearPressure<L> or nearly or std::abs(excess) <= tolerance + digits)
+    if (LinearPressure<L> or std::abs(excess) <= tolerance + digits)
     {
       if (not(r.dp_dtheta < 0)) // against the contract, as a umat may be
         return Outcome::reduce_step;
