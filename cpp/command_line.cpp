@@ -6,6 +6,21 @@
 
 namespace mmale
 {
+Exit end_of(bool completed, bool checks_hold)
+{
+  if (not completed)
+    return stopped;
+  return checks_hold ? good : checks_fail;
+}
+
+Exit worst(const std::set<Exit>& ends)
+{
+  for (Exit end : {failure, stopped, checks_fail})
+    if (ends.contains(end))
+      return end;
+  return good;
+}
+
 void print(std::span<const scene::Complaint> complaints)
 {
   std::vector<std::string> lines;

@@ -3,6 +3,7 @@
 
 #include "scene/complaint.h"
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ enum Exit
   stopped = 3,
   checks_fail = 4
 };
+
+/// How a run or a test ended.
+Exit end_of(bool completed, bool checks_hold);
+
+/// The one that the program tells of all that happened.
+Exit worst(const std::set<Exit>& ends);
 
 /// The words of the command line.
 struct Arguments

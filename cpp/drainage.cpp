@@ -46,14 +46,8 @@ Stiffness stiffness(const scene::Scene& scene, double depth)
       {
         std::vector<double> q(material::num_history(law));
         l.begin({}, q);
-        material::Pores pores{0, water.porosity};
-        int at = 0;
-        for (const material::HistoryField& field : l.history())
-        {
-          if (field.name == "void_ratio")
-            pores.n = q[at] / (1 + q[at]);
-          at += field.size;
-        }
+        const material::Pores pores{0,
+                                    material::porosity(law, q, water.porosity)};
         const double buoyant = material::initial_density(l, material::Start{})
                                - (1 - pores.n) * water.density;
         material::Point point{.q = q};

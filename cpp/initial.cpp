@@ -2,10 +2,10 @@
 #include "initial.h"
 
 #include "bridge/paint.h"
+#include "effective.h"
 #include "mixture.h"
 
 #include "lagrangian/kernel.h"
-#include "material/drive.h"
 #include "simulation.h"
 #include <algorithm>
 #include <array>
@@ -35,16 +35,52 @@ std::array<double, 3> shares(int points, int q)
     return lagrangian::points<6>()[q];
   return {1. / 3, 1. / 3, 1. / 3};
 }
-} // namespace
 
-Ground::Ground(const scene::Scene& scene, const mesh::Domain& domain,
-               const lagrangian::Element& element)
-    : _scene(scene), _element(element),
-      _surface(scene.initial.surface.value_or(top_of(domain)))
+/// The ground at a height, at rest under its weight.
+struct Layer
 {
-  if (not scene.stage.empty() and scene.stage.front().gravity)
-    _gravity = -(*scene.stage.front().gravity)[1](0);
-}
+  double pressure;      ///< total [Pa]
+  double excess;        ///< of the vertical stress over the pressure [Pa]
+  double pore_pressure; ///< 0 without water [Pa]
+  double void_ratio;    ///< NaN where the scene leaves it to the law
+};
+
+class Ground
+{
+public:
+  /// Collective.
+  Ground(const scene::Scene& scene, const mesh::Domain& domain,
+         const lagrangian::Element& element)
+      : _scene(scene), _element(element),
+        _surface(scene.initial.surface.value_or(top_of(domain)))
+  {
+    if (not scene.stage.empty() and scene.stage.front().gravity)
+      _gravity = -(*scene.stage.front().gravity)[1](0);
+  }
+
+  Layer at(double y) const
+  {
+    const auto& initial = _scene.initial;
+    const double e = void_ratio(y), p_w = pore_pressure(y);
+    if (not initial.K0)
+      return {initial.pressure.value_or(0), 0, p_w, e};
+    // horizontal is K0 times vertical, of the effective stresses
+    const double vertical = vertical_stress(y);
+    const double excess = (vertical - p_w) * 2 * (1 - *initial.K0) / 3;
+    return {vertical - excess, excess, p_w, e};
+  }
+
+private:
+  double void_ratio(double y) const;
+  double density(double y) const; ///< of all, water too [kg/m3]
+  double pore_pressure(double y) const;
+  double vertical_stress(double y) const; ///< total, compression positive [Pa]
+
+  const scene::Scene& _scene;
+  const lagrangian::Element& _element;
+  double _surface;     ///< [m]
+  double _gravity = 0; ///< downward [m/s2]
+};
 
 double Ground::void_ratio(double y) const
 {
@@ -100,21 +136,7 @@ double Ground::vertical_stress(double y) const
          + _gravity * mass;
 }
 
-double Ground::excess(double y) const
-{
-  if (not _scene.initial.K0)
-    return 0;
-  // horizontal is K0 times vertical, of the effective stresses
-  const double effective = vertical_stress(y) - pore_pressure(y);
-  return effective * 2 * (1 - *_scene.initial.K0) / 3;
-}
-
-double Ground::pressure(double y) const
-{
-  if (not _scene.initial.K0)
-    return _scene.initial.pressure.value_or(0);
-  return vertical_stress(y) - excess(y);
-}
+} // namespace
 
 void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
                   const lagrangian::Element& element, State& state)
@@ -127,10 +149,10 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
   state.p_w.resize(scene.water and scene.water->seepage() ? nodes : 0);
   for (std::size_t n = 0; n < nodes; ++n)
   {
-    const double y = domain.initial_x[2 * n + 1];
-    state.p[n] = ground.pressure(y);
+    const Layer layer = ground.at(domain.initial_x[2 * n + 1]);
+    state.p[n] = layer.pressure;
     if (not state.p_w.empty())
-      state.p_w[n] = ground.pore_pressure(y);
+      state.p_w[n] = layer.pore_pressure;
   }
   state.s.assign(4 * cells * points, 0);
   state.P.resize(cells * points);
@@ -144,11 +166,12 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
     double y = 0;
     for (int v = 0; v < 3; ++v)
       y += share[v] * domain.initial_x[2 * domain.cells[c][v] + 1];
-    const double half = 0.5 * ground.excess(y), p_w = ground.pore_pressure(y);
-    state.P[q] = ground.pressure(y);
+    const auto [p, excess, p_w, e] = ground.at(y);
+    const double half = 0.5 * excess;
+    state.P[q] = p;
     material::Voigt::Map(state.s.data() + 4 * q) << half, -2 * half, half, 0;
     state.density[c] +=
-        element.begin({state.P[q] - p_w, ground.void_ratio(y)}, p_w,
+        element.begin({p - p_w, e}, p_w,
                       std::span(state.history).subspan(h * q, h))
         / points;
   }
@@ -215,7 +238,9 @@ scene::Stage at_rest(scene::Stage stage)
          {&condition.traction_x, &condition.traction_y, &condition.pressure})
       now(*series);
     if (condition.wall)
-      stop(condition.wall->velocity_y);
+      for (auto* series :
+           {&condition.wall->velocity_x, &condition.wall->velocity_y})
+        stop(*series);
     if (condition.absorbing) // it carries what it carries at rest
       condition.fixed = true;
     condition.absorbing = false;
@@ -227,24 +252,9 @@ scene::Stage at_rest(scene::Stage stage)
 double beyond_the_law(const Simulation& sim)
 {
   State copy = sim.state;
-  double worst = 0;
-  const std::size_t h = sim.problem->element().num_history();
-  const std::size_t own = material::num_history(sim.laws.front());
-  std::visit(
-      [&](const auto& law)
-      {
-        for (std::size_t q = 0; q < copy.P.size(); ++q)
-        {
-          const auto history = std::span(copy.history).subspan(h * q, h);
-          if (sim.scene.water)
-            copy.P[q] -= material::pores(history).p_w;
-          const double cut =
-              law.admit(Eigen::Map<material::Voigt>(copy.s.data() + 4 * q),
-                        copy.P[q], history.first(own));
-          worst = std::max(worst, cut);
-        }
-      },
-      sim.laws.front());
+  if (sim.scene.water)
+    to_effective(copy);
+  double worst = admit(sim.laws, copy, sim.domain.num_owned_cells).largest;
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, sim.domain.comm);
   return worst;
 }
@@ -264,7 +274,11 @@ Balance settle(Simulation& sim)
   balance.as_laid = balance.settled = sim.problem->imbalance(state, stage.step);
   if (balance.as_laid > 0.1 * enough)
   {
-    const auto [G, K] = sim.problem->moduli(state, stage.step);
+    // The water stays as it is, so what changes is effective stress, and the
+    // skeleton's modulus has to tell how much: with the water's beside it sand
+    // near a surface was taken beyond what it bears.
+    const auto [G, K] =
+        sim.problem->moduli(state, stage.step, lagrangian::Meets::skeleton);
     const material::AnyLaw elastic =
         material::Elastic{.E = 9 * K * G / (3 * K + G),
                           .nu = (3 * K - 2 * G) / (6 * K + 2 * G),
@@ -273,9 +287,11 @@ Balance settle(Simulation& sim)
     trial.history.clear(); // total stress: the water stays as it is
     trial.p_w.clear();
     trial.apex.clear();
+    scene::Solver options = sim.scene.solver;
+    options.bubble_spring = 0; // its force would be gone in the next round
     lagrangian::Problem problem(sim.domain, std::span(&elastic, 1),
-                                sim.scene.symmetry, sim.scene.solver,
-                                std::nullopt, sim.clock);
+                                sim.scene.symmetry, options, std::nullopt,
+                                sim.clock);
     problem.set_stage(stage, trial);
     problem.rest_under_gravity();
     for (int i = 0; i < max_rounds and balance.settled > 0.1 * enough; ++i)
@@ -302,8 +318,9 @@ Balance settle(Simulation& sim)
   if (not(balance.settled <= enough))
     throw std::runtime_error(std::format(
         "the initial stress is not in balance with the weight and the loads of "
-        "stage '{}': a force of {:.1e} of the weight is left on a node",
-        stage.name, balance.settled));
+        "stage '{}': a force of {:.1e} of the weight is left on a node; {:.1e} "
+        "of a stress is beyond what the material bears",
+        stage.name, balance.settled, beyond_the_law(sim)));
   if (const double cut = beyond_the_law(sim); cut > 1e-6)
     throw std::runtime_error(
         std::format("the initial stress is more than the material bears: {:.1e}"

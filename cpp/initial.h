@@ -11,30 +11,6 @@ namespace mmale
 {
 struct Simulation;
 
-/// What the ground is like at a height, at rest under its weight.
-class Ground
-{
-public:
-  /// Collective.
-  Ground(const scene::Scene& scene, const mesh::Domain& domain,
-         const lagrangian::Element& element);
-
-  /// Void ratio, or NaN where the scene leaves it to the law.
-  double void_ratio(double y) const;
-  double density(double y) const;         ///< of all, water too [kg/m3]
-  double pore_pressure(double y) const;   ///< 0 without water [Pa]
-  double vertical_stress(double y) const; ///< total, compression positive [Pa]
-  double pressure(double y) const;        ///< total [Pa]
-  /// What the vertical stress exceeds the pressure by [Pa].
-  double excess(double y) const;
-
-private:
-  const scene::Scene& _scene;
-  const lagrangian::Element& _element;
-  double _surface;     ///< [m]
-  double _gravity = 0; ///< downward [m/s2]
-};
-
 /// Stress, nodal pressures, density and history of every cell, ghosts too.
 /// Collective.
 void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,

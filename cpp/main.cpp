@@ -147,9 +147,7 @@ Exit run_one(MPI_Comm comm, const Job& job, const RunOptions& options,
     row.interrupted = result.interrupted;
     row.outcome = result.outcome;
     row.last = result.last;
-    return not result.completed ? stopped
-           : result.checks_hold ? good
-                                : checks_fail;
+    return end_of(result.completed, result.checks_hold);
   }
   catch (const std::exception& error)
   {
@@ -207,10 +205,7 @@ Exit run_all(MPI_Comm comm, const std::vector<Job>& jobs,
   }
   if (rank == 0 and jobs.size() > 1)
     draw_sweep(jobs, results);
-  for (Exit end : {failure, stopped, checks_fail})
-    if (ends.contains(end))
-      return end;
-  return good;
+  return worst(ends);
 }
 
 /// What --resume finds for each run; on rank 0.

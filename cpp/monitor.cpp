@@ -177,6 +177,15 @@ double Monitor::boundary_mean(int boundary, std::span<const double> nodal,
   return total[0] / total[1];
 }
 
+double Monitor::largest_place(int boundary, int direction) const
+{
+  double out = -std::numeric_limits<double>::infinity();
+  for (int n : _sim.domain.boundary_nodes(boundary))
+    out = std::max(out, _sim.state.x[2 * n + direction]);
+  MPI_Allreduce(MPI_IN_PLACE, &out, 1, MPI_DOUBLE, MPI_MAX, _sim.domain.comm);
+  return out;
+}
+
 void Monitor::after_step(double dt)
 {
   const auto& state = _sim.state;
@@ -248,6 +257,8 @@ double Monitor::value(const Column& c) const
     return stress(c.point, q.substr(7), cell_stress());
   if (q.starts_with("effective_stress"))
     return stress(c.point, q.substr(17), effective_stress());
+  if (q == "x_max" or q == "y_max")
+    return largest_place(c.boundary, q == "x_max" ? 0 : 1);
   if (q == "discharge")
     return _discharge[c.boundary];
   if (q == "pore_pressure")

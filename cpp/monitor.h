@@ -64,6 +64,7 @@ private:
   void add_water_fields(std::vector<output::NamedField>& out);
   double boundary_mean(int boundary, std::span<const double> nodal, int size,
                        int component) const;
+  double largest_place(int boundary, int direction) const;
   double breadth(const scene::Curve& c) const;
   double volume() const;
   double integral(std::span<const double> density) const;

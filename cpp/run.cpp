@@ -302,7 +302,7 @@ void Run::enter_stage()
 {
   const scene::Stage& stage = _scene.stage.at(_stage);
   _marks = marks(_begin, stage.duration);
-  _control.emplace(stage, _marks);
+  _control.emplace(stage, _marks, _sim.scene.solver.max_iterations);
   if (_sim.problem)
     _sim.problem->set_stage(stage, _sim.state);
 }

@@ -46,7 +46,10 @@ bool step(Simulation& sim, const scene::Stage& stage, double t0, double t1,
   {
     const bool dynamic = not sim.state.a.empty();
     const double before = dynamic ? sim.problem->kinetic_energy(sim.state) : 0;
-    sim.remap->run(sim.state, log.remap);
+    std::vector<std::uint8_t> at_wall;
+    if (sim.problem)
+      at_wall = sim.problem->at_wall();
+    sim.remap->run(sim.state, at_wall, log.remap);
     if (dynamic and log.remap.done)
     {
       sim.state.work.remap += sim.problem->kinetic_energy(sim.state) - before;

@@ -5,11 +5,12 @@
 
 namespace mmale
 {
-StepControl::StepControl(const scene::Stage& stage, std::vector<double> marks)
+StepControl::StepControl(const scene::Stage& stage, std::vector<double> marks,
+                         int most)
     : _end(stage.duration), _step(stage.step),
       _floor(stage.step_min > 0 ? stage.step_min : stage.step / 1024),
       _ceiling(stage.step_max > 0 ? stage.step_max : stage.step),
-      _marks(std::move(marks))
+      _easy(std::max(1, most / 3)), _marks(std::move(marks))
 {
   _marks.push_back(_end);
   std::ranges::sort(_marks);
@@ -32,7 +33,7 @@ void StepControl::accepted(int iterations)
   _time = next();
   if (_time >= _end * (1 - 1e-12))
     _time = _end;
-  if (iterations <= easy)
+  if (iterations <= _easy)
     _step = std::min(_ceiling, 1.5 * _step);
 }
 

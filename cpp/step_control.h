@@ -13,7 +13,10 @@ class StepControl
 {
 public:
   /// @param[in] marks times to be met exactly, from the start of the stage [s]
-  StepControl(const scene::Stage& stage, std::vector<double> marks);
+  /// @param[in] most  iterations that a step may take; one with a third of them
+  ///                  is easy. (Five whatever the most: friction takes six at
+  ///                  any step, and steps once halved stayed small.)
+  StepControl(const scene::Stage& stage, std::vector<double> marks, int most);
 
   double time() const { return _time; }
   bool finished() const { return _time >= _end; }
@@ -43,11 +46,8 @@ public:
   }
 
 private:
-  /// Iterations up to which a step counts as easy. More: larger steps, more
-  /// failures.
-  static constexpr int easy = 5;
-
   double _time = 0, _end, _step, _floor, _ceiling;
+  int _easy; ///< iterations up to which the next step grows
   std::vector<double> _marks;
 };
 } // namespace mmale

@@ -63,15 +63,12 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
       _direction(2 * domain.num_nodes(), 0), _mesh(mesh), _curve(mesh),
       _motion(2 * domain.num_nodes(), 0)
 {
-  const auto surface = [&](std::size_t b)
-  {
-    return std::ranges::find(surfaces, domain.boundary_names[b])
-           != surfaces.end();
-  };
+  for (const std::string& name : domain.boundary_names)
+    _is_surface.push_back(std::ranges::find(surfaces, name) != surfaces.end());
   const std::vector<int> side_of = sides_of_nodes(domain);
   for (std::size_t b = 0; b < domain.boundary_names.size(); ++b)
     if (const auto nodes = domain.boundary_nodes(static_cast<int>(b));
-        surface(b))
+        _is_surface[b])
       for (int n : nodes)
         if (side_of[n] != several)
           _kinds[n] = Kind::surface;
@@ -82,10 +79,9 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
       if (side_of[n] == smooth)
         _curved.push_back(n);
     }
+  add_corners(side_of);
   add_sides(side_of);
   turn(domain.initial_x);
-  for (Kind k : _kinds)
-    _on_surface.push_back(k == Kind::surface);
   const auto& around = mesh.node_nodes();
   for (int n = 0; n < mesh.num_nodes(); ++n)
     for (int m : around[n])
@@ -94,6 +90,19 @@ Placement::Placement(const mesh::Domain& domain, const ::remap::Mesh& mesh,
                         - ::remap::point(domain.initial_x, n);
       _weight.push_back(1 / ::remap::dot(edge, edge));
     }
+}
+
+/// Nodes at which two stretches meet that are both of free surfaces.
+void Placement::add_corners(std::span<const int> side_of)
+{
+  std::vector<double> others(_domain.num_nodes(), 0);
+  for (const mesh::Facet& f : _domain.facets)
+    if (not _is_surface[f.boundary])
+      others[f.a] = others[f.b] = 1;
+  _domain.node_halo->update(others, 1);
+  for (int n = 0; n < _domain.num_nodes(); ++n)
+    if (side_of[n] == several and others[n] == 0)
+      _corners.push_back(n);
 }
 
 void Placement::add_sides(std::span<const int> side_of)
@@ -179,12 +188,50 @@ void Placement::turn(std::span<const double> x)
       _kinds[n] = bend[s] < straight ? Kind::slide : on_curve(n, x);
   for (int n : _curved)
     _kinds[n] = on_curve(n, x);
+  turn_corners(x);
   _placed = _kinds;
   std::ranges::replace(_placed, Kind::slide, Kind::fixed);
   ::remap::Host host;
   host.node_halo = [this](std::span<double> v, int block)
   { _domain.node_halo->update(v, block); };
   _curve.follow(x, _kinds, host);
+}
+
+/// Corners of free surfaces are nodes like others where they have become blunt,
+/// or one of the sides that meet there has been used up.
+void Placement::turn_corners(std::span<const double> x)
+{
+  std::vector<double> free(_domain.num_nodes(), 0);
+  for (int n : _corners)
+    free[n] = n < _domain.num_owned_nodes
+              and (on_curve(n, x) == Kind::curve or used_up(n, x));
+  _domain.node_halo->update(free, 1);
+  for (int n : _corners)
+    _kinds[n] = free[n] > 0 ? Kind::surface : Kind::fixed;
+  _on_surface.clear();
+  for (Kind k : _kinds)
+    _on_surface.push_back(k == Kind::surface);
+}
+
+/// Are the facets at a node of ours, over their first lengths, further apart
+/// than 1 : 2?
+bool Placement::used_up(int node, std::span<const double> x) const
+{
+  const auto [in, out] = _mesh.boundary_facets(node);
+  if (in < 0 or out < 0)
+    return false;
+  const auto grown = [&](std::int32_t f)
+  {
+    const auto length2 = [&](std::span<const double> at)
+    {
+      const auto d = ::remap::point(at, _mesh.facet(f)[1])
+                     - ::remap::point(at, _mesh.facet(f)[0]);
+      return ::remap::dot(d, d);
+    };
+    return length2(x) / length2(_domain.initial_x);
+  };
+  const double a = grown(in), b = grown(out);
+  return std::max(a, b) > 4 * std::min(a, b);
 }
 
 /// `curve`, but for corners; of nodes of ours.

@@ -36,7 +36,9 @@ public:
 
   /// Sliding follows the boundary as it is now; sides that have bent are curved
   /// boundaries, and where one turns by more than 45° at a node this stays with
-  /// the material. To be called before `kinds` are used. Collective.
+  /// the material, as does a corner of a free surface until it is blunter than
+  /// that or one of its sides has been used up. To be called before `kinds` are
+  /// used. Collective.
   /// @param[in] x nodes, shape (nodes, 2) [m]
   void turn(std::span<const double> x);
 
@@ -76,7 +78,10 @@ private:
   /// Sweeps of the averaging a call. Doubled: nothing but time once the
   /// boundary moves evenly.
   static constexpr int sweeps = 20;
+  void add_corners(std::span<const int> side_of);
+  void turn_corners(std::span<const double> x);
   void add_sides(std::span<const int> side_of);
+  bool used_up(int node, std::span<const double> x) const;
   ::remap::Kind on_curve(int node, std::span<const double> x) const;
   void place_sides(std::vector<double>& x) const;
   void follow_boundary();
@@ -86,8 +91,10 @@ private:
 
   const mesh::Domain& _domain;
   std::vector<::remap::Kind> _kinds, _placed;
-  std::vector<int> _curved; ///< nodes of curved boundaries
-  std::vector<std::uint8_t> _on_surface;
+  std::vector<int> _curved;  ///< nodes of curved boundaries
+  std::vector<int> _corners; ///< of free surfaces when first laid
+  std::vector<std::uint8_t> _is_surface; ///< of each boundary
+  std::vector<std::uint8_t> _on_surface; ///< of each node
   std::vector<double> _direction;
   std::vector<Side> _sides;
   const ::remap::Mesh& _mesh;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "remap_step.h"
 
+#include "effective.h"
+#include "foot.h"
 #include "history_fields.h"
-#include "material/water.h"
 #include "mesh/corners.h"
 #include "mixture.h"
 #include "output/archive.h"
@@ -185,7 +186,8 @@ struct RemapStep::Impl
   Impl(const mesh::Domain& domain, const scene::Scene& scene,
        std::span<const material::AnyLaw> laws, output::Clock& clock);
 
-  bool smooth(const State& state, std::vector<double>& x, RemapLog& log);
+  bool smooth(const State& state, std::span<const std::uint8_t> at_wall,
+              std::vector<double>& x, RemapLog& log);
   bool transport(State& state, std::span<const double> x, RemapLog& log);
   void add_stress(State& state, std::vector<::remap::Field>& fields);
   std::vector<double> boundary_velocity(const State& state) const;
@@ -193,12 +195,6 @@ struct RemapStep::Impl
   void make_admissible(State& state, RemapLog& log);
   bool several() const { return laws.size() > 1; }
   void exchange_of_materials(Exchange& out) const;
-  void to_effective(State& state) const;
-  void to_total(State& state) const;
-  int water_numbers() const
-  {
-    return scene.water ? material::Water::num_history : 0;
-  }
 
   const mesh::Domain& domain;
   const scene::Scene& scene;
@@ -220,6 +216,7 @@ struct RemapStep::Impl
   ::remap::Ledger ledger;
 
   std::optional<Placement> placement;
+  std::optional<Foot> foot;
   std::vector<double> spacing;
   std::vector<::remap::quality::Target> targets;
   std::vector<std::uint8_t> flags;
@@ -267,6 +264,7 @@ RemapStep::Impl::Impl(const mesh::Domain& domain, const scene::Scene& scene,
     return;
   smoothing.emplace(mesh, smoothing_options(scene), host);
   placement.emplace(domain, mesh, scene.remap.surface);
+  foot.emplace(domain, scene.remap.surface);
   home = domain.initial_x;
   flags.resize(mesh.num_nodes());
   spacing = ::remap::facet_lengths(mesh, domain.initial_x);
@@ -302,8 +300,9 @@ bool RemapStep::due(const State& state, int number)
   return worst_quality(m.domain, state) < o.quality_below;
 }
 
-bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
-                             RemapLog& log)
+bool RemapStep::Impl::smooth(const State& state,
+                             std::span<const std::uint8_t> at_wall,
+                             std::vector<double>& x, RemapLog& log)
 {
   const auto scope = clock.scope("2 smooth");
   if (not smoothing)
@@ -317,12 +316,14 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
                                    .spacing = spacing,
                                    .targets = targets};
   auto outcome = ::remap::Outcome::inverted_start;
-  placement->turn(state.x);
   if (whole)
   {
+    x = state.x;
+    if (not at_wall.empty())
+      foot->move(at_wall, x);
+    placement->turn(x);
     // the surface first, so that the body follows it where it will be
     constraints.kinds = placement->kinds_placed();
-    x = state.x;
     outcome = smoothing->smooth(x, placement->on_surface(), constraints, host);
     if (outcome == ::remap::Outcome::ok)
     {
@@ -332,6 +333,7 @@ bool RemapStep::Impl::smooth(const State& state, std::vector<double>& x,
   }
   if (outcome != ::remap::Outcome::ok)
   {
+    placement->turn(state.x);
     constraints.kinds = placement->kinds();
     x = state.x;
     outcome = smoothing->smooth(x, flags, constraints, host);
@@ -472,40 +474,8 @@ void RemapStep::Impl::make_admissible(State& state, RemapLog& log)
   if (laws.empty())
     return;
   const auto scope = clock.scope("4 admissible");
-  double largest = 0, clipped = 0;
-  const auto h = static_cast<std::size_t>(travelling.numbers());
-  const auto admit =
-      [&](const auto& law, std::size_t q, std::size_t numbers, bool owned)
-  {
-    const double part =
-        law.admit(Eigen::Map<material::Voigt>(state.s.data() + 4 * q),
-                  state.P[q], std::span(state.history).subspan(h * q, numbers));
-    clipped += owned and part > 0;
-    largest = std::max(largest, part);
-  };
-  if (several())
-    for (std::int32_t slot = 0; slot < state.materials->num_slots(); ++slot)
-    {
-      const auto k = state.materials->material(slot);
-      if (k < 0)
-        continue;
-      std::visit(
-          [&](const auto& law)
-          {
-            admit(law, slot, material::num_history(laws[k]),
-                  slot < domain.num_owned_cells);
-          },
-          laws[k]);
-    }
-  else
-    std::visit(
-        [&](const auto& law)
-        {
-          const int owned = state.points * domain.num_owned_cells;
-          for (int q = 0; q < state.points * domain.num_cells(); ++q)
-            admit(law, q, h - water_numbers(), q < owned);
-        },
-        laws.front());
+  const Cut cut = admit(laws, state, domain.num_owned_cells);
+  double largest = cut.largest, clipped = static_cast<double>(cut.points);
   host.max(std::span(&largest, 1));
   host.sum(std::span(&clipped, 1));
   log.clipped = static_cast<std::int64_t>(clipped);
@@ -531,38 +501,20 @@ void RemapStep::keep(output::Archive& archive)
   }
 }
 
-/// What travels is p' and p_w, so that neither has the other's jumps: cells and
-/// nodes have effective pressures between this and `to_total`.
-void RemapStep::Impl::to_effective(State& state) const
-{
-  const auto h = static_cast<std::size_t>(travelling.numbers());
-  for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
-    state.P[q] -=
-        material::pores(std::span(state.history).subspan(h * q, h)).p_w;
-  for (std::size_t n = 0; n < state.p_w.size(); ++n)
-    state.p[n] -= state.p_w[n];
-}
-
-void RemapStep::Impl::to_total(State& state) const
-{
-  const auto h = static_cast<std::size_t>(travelling.numbers());
-  for (std::size_t q = 0; scene.water and q < state.P.size(); ++q)
-    state.P[q] +=
-        material::pores(std::span(state.history).subspan(h * q, h)).p_w;
-  for (std::size_t n = 0; n < state.p_w.size(); ++n)
-    state.p[n] += state.p_w[n];
-}
-
-void RemapStep::run(State& state, RemapLog& log)
+void RemapStep::run(State& state, std::span<const std::uint8_t> at_wall,
+                    RemapLog& log)
 {
   std::vector<double> x;
-  if (not _impl->smooth(state, x, log))
+  if (not _impl->smooth(state, at_wall, x, log))
     return;
-  _impl->to_effective(state);
+  // what travels is p' and p_w, so that neither has the other's jumps
+  if (_impl->scene.water)
+    to_effective(state);
   const bool moved = _impl->transport(state, x, log);
   if (moved)
     _impl->make_admissible(state, log);
-  _impl->to_total(state);
+  if (_impl->scene.water)
+    to_total(state);
   if (not moved)
     return;
   _impl->home = state.x;

@@ -74,7 +74,9 @@ public:
   bool due(const State& state, int number);
 
   /// Move the mesh and carry the state. Collective.
-  void run(State& state, RemapLog& log);
+  /// @param[in] at_wall 1 for nodes that a wall holds, shape (nodes); empty
+  ///                    without walls
+  void run(State& state, std::span<const std::uint8_t> at_wall, RemapLog& log);
 
   Exchange exchange() const;
 

@@ -260,12 +260,9 @@ output::Sheet sheet(const Test& test, std::span<const std::string> columns,
               {.x = "eps_q", .y = "q"},
               {.x = "gamma", .y = "tau"},
               {.x = "eps_q", .y = response}};
-  output::Sheet out{
-      .name = "test", .panels = panels, .data = test.data ? "data.csv" : ""};
-  for (const output::Reference& r : references)
-    if (r.take == output::Reference::Take::at
-        and r.relation == output::Reference::Relation::near)
-      out.points.push_back({r.at.first, r.at.second, r.curve, r.reference});
-  return out;
+  return {.name = "test",
+          .panels = panels,
+          .points = output::known_points(references),
+          .data = test.data ? "data.csv" : ""};
 }
 } // namespace mmale::element

@@ -90,9 +90,7 @@ Exit run_one(const Job& job, const Arguments& given, const fs::path& results,
                        .quiet = given.quiet});
     row.outcome = result.outcome;
     row.last = result.last;
-    return not result.completed ? stopped
-           : result.checks_hold ? good
-                                : checks_fail;
+    return end_of(result.completed, result.checks_hold);
   }
   catch (const std::exception& error)
   {
@@ -130,10 +128,7 @@ Exit run_all(const std::vector<Job>& jobs, const Arguments& given,
     if (const auto trouble = output::draw_sweep(results, members);
         not trouble.empty())
       std::cerr << "mmale: no pictures of the sweep: " << trouble << std::endl;
-  for (Exit end : {failure, stopped, checks_fail})
-    if (ends.contains(end))
-      return end;
-  return good;
+  return worst(ends);
 }
 } // namespace
 

@@ -15,16 +15,25 @@ double at(const std::optional<scene::TimeSeries>& series, double t)
   return series ? (*series)(t) : 0.0;
 }
 
-/// On which side of an upright wall a boundary lies: the mean of its nodes
-/// tells. Collective.
-double side_of_body(const mesh::Domain& domain, int boundary, double wall)
+/// On which side of a wall a boundary lies: the mean of its nodes tells.
+/// Collective.
+Wall make_wall(const mesh::Domain& domain, int boundary,
+               const scene::Wall& given)
 {
+  const int normal = given.x ? 0 : 1;
+  const double at = given.x ? *given.x : *given.y;
   double sum = 0;
   for (int n : domain.boundary_nodes(boundary))
     if (n < domain.num_owned_nodes)
-      sum += domain.initial_x[2 * n] - wall;
+      sum += domain.initial_x[2 * n + normal] - at;
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, domain.comm);
-  return sum >= 0 ? 1 : -1;
+  const auto& velocity = given.x ? given.velocity_y : given.velocity_x;
+  return {boundary,
+          normal,
+          at,
+          sum >= 0 ? 1.0 : -1.0,
+          given.grip == "rough",
+          velocity.value_or(scene::TimeSeries{{}, {0.0}})};
 }
 } // namespace
 
@@ -62,10 +71,7 @@ Conditions::Conditions(const mesh::Domain& domain, const scene::Stage& stage)
         _absorbing_nodes.insert(_absorbing_nodes.end(), nodes.begin(),
                                 nodes.end());
       if (prescribed and c.wall)
-        _walls.push_back(
-            {b, c.wall->x, side_of_body(domain, b, c.wall->x),
-             c.wall->grip == "rough",
-             c.wall->velocity_y.value_or(scene::TimeSeries{{}, {0.0}})});
+        _walls.push_back(make_wall(domain, b, *c.wall));
     }
 }
 

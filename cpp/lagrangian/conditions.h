@@ -19,14 +19,15 @@ struct Load
   bool absorbing;     ///< with dashpots
 };
 
-/// A rigid upright wall that the nodes of a boundary may touch.
+/// A rigid wall that the nodes of a boundary may touch.
 struct Wall
 {
   int boundary;
-  double x;                     ///< [m]
-  double sign;                  ///< +1: the body lies to the right of it
-  bool rough;                   ///< what has touched it moves with it
-  scene::TimeSeries velocity_y; ///< of a rough one [m/s]
+  int normal;                 ///< 0: upright, at an x; 1: level, at a y
+  double at;                  ///< [m]
+  double sign;                ///< +1: the body lies to the right of it, above
+  bool rough;                 ///< what has touched it moves with it
+  scene::TimeSeries velocity; ///< of a rough one, along it [m/s]
 };
 
 /// What a stage prescribes, unknown by unknown (ux, uy, p a node).

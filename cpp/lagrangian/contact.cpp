@@ -24,21 +24,22 @@ Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
   _reach = 1e-3 * size;
   for (std::size_t w = 0; w < _walls.size(); ++w)
     for (int n : domain.boundary_nodes(_walls[w].boundary))
-      if (conditions.holder()[3 * n] < 0) // a punch's corner is the punch's
+      if (conditions.holder()[3 * n + _walls[w].normal] < 0)
+        // else a punch's corner, which is the punch's
         _candidates.push_back({n, static_cast<int>(w)});
-  _rise.resize(_walls.size());
+  _way.resize(_walls.size());
 }
 
 void Contact::begin_step(std::span<const double> x, double t0, double t1)
 {
   for (std::size_t w = 0; w < _walls.size(); ++w)
-    _rise[w] =
-        _walls[w].velocity_y.integral(t1) - _walls[w].velocity_y.integral(t0);
+    _way[w] =
+        _walls[w].velocity.integral(t1) - _walls[w].velocity.integral(t0);
   for (Candidate& c : _candidates)
   {
     const Wall& wall = _walls[c.wall];
-    c.held =
-        wall.sign * (x[2 * c.node] - wall.x) <= (wall.rough ? _reach : _gap);
+    c.held = wall.sign * (x[2 * c.node + wall.normal] - wall.at)
+             <= (wall.rough ? _reach : _gap);
   }
 }
 
@@ -54,8 +55,10 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
     if (c.node >= _domain.num_owned_nodes)
       continue;
     const Wall& wall = _walls[c.wall];
-    const double gap = wall.sign * (x[2 * c.node] + z[3 * c.node] - wall.x);
-    const double push = wall.sign * force[3 * c.node] / stiffness;
+    const int i = 3 * c.node + wall.normal;
+    const double gap
+        = wall.sign * (x[2 * c.node + wall.normal] + z[i] - wall.at);
+    const double push = wall.sign * force[i] / stiffness;
     const bool hold =
         wall.rough ? c.held or gap < -_gap : push - gap > -1e-3 * _gap;
     if (hold != c.held)
@@ -74,6 +77,15 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
   return true;
 }
 
+std::vector<std::uint8_t> Contact::at_wall() const
+{
+  std::vector<std::uint8_t> out(empty() ? 0 : _domain.num_nodes(), 0);
+  for (const Candidate& c : _candidates)
+    if (c.held)
+      out[c.node] = 1;
+  return out;
+}
+
 void Contact::apply(std::span<const double> x, std::span<int> holder,
                     std::span<double> increment) const
 {
@@ -82,12 +94,14 @@ void Contact::apply(std::span<const double> x, std::span<int> holder,
     if (not c.held)
       continue;
     const Wall& wall = _walls[c.wall];
-    holder[3 * c.node] = wall.boundary;
-    increment[3 * c.node] = wall.x - x[2 * c.node];
+    const int normal = 3 * c.node + wall.normal,
+              along = 3 * c.node + 1 - wall.normal;
+    holder[normal] = wall.boundary;
+    increment[normal] = wall.at - x[2 * c.node + wall.normal];
     if (wall.rough)
     {
-      holder[3 * c.node + 1] = wall.boundary;
-      increment[3 * c.node + 1] = _rise[c.wall];
+      holder[along] = wall.boundary;
+      increment[along] = _way[c.wall];
     }
   }
 }

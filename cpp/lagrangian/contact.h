@@ -46,6 +46,9 @@ public:
   void apply(std::span<const double> x, std::span<int> holder,
              std::span<double> increment) const;
 
+  /// 1 for nodes that are held, shape (n), ghosts too; empty without walls.
+  std::vector<std::uint8_t> at_wall() const;
+
   bool empty() const { return _walls.empty(); }
 
 private:
@@ -58,7 +61,7 @@ private:
   const mesh::Domain& _domain;
   std::vector<Wall> _walls;
   std::vector<Candidate> _candidates; ///< owned and ghost
-  std::vector<double> _rise;          ///< of each wall in this step [m]
+  std::vector<double> _way;           ///< of each wall in this step [m]
   double _gap;                        ///< closer than this is touching [m]
   double _reach;                      ///< the same for a rough wall [m]
   int _unsettled = -1;

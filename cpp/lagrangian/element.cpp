@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "element.h"
 
+#include "effective.h"
 #include "mean_element.h"
 #include "mesh/corners.h"
 #include "mixed_element.h"
@@ -39,7 +40,7 @@ void Element::begin_step(const State& state, double dt)
 }
 
 material::Moduli Element::moduli(const State& state, int c, double dt,
-                                 bool fast) const
+                                 Meets what) const
 {
   material::Moduli mean{0, 0};
   medium().with(
@@ -51,9 +52,14 @@ material::Moduli Element::moduli(const State& state, int c, double dt,
           const auto [G, K] = answers(0).moduli(at, dt);
           mean.G += G / _num_points;
           mean.K += K / _num_points;
-          if (medium().flows() and fast)
-            mean.K += 1
-                      / medium().water()->compressibility(material::pores(at.q))
+          const auto& water = medium().water();
+          const bool has = water and not medium().flows(); // water, in K
+          const bool wants =
+              water
+              and (what == Meets::wave or (has and what == Meets::slow_step));
+          if (has != wants)
+            mean.K += (wants ? 1 : -1)
+                      / water->compressibility(material::pores(at.q))
                       / _num_points;
         }
       });

@@ -25,6 +25,15 @@ struct FlowRow
   double digits_squared; ///< of their last digits, over epsilon
 };
 
+/// Whose moduli: of the medium as a slow step meets it (undrained: with its
+/// water), of the skeleton alone, or with water that has no time to flow.
+enum class Meets
+{
+  slow_step,
+  skeleton,
+  wave
+};
+
 /// Blocks of the pore pressure in a cell's tangent, row-major.
 struct FlowTangent
 {
@@ -140,11 +149,9 @@ public:
   /// ratios: theta and ln J differ cell by cell, and this is their sum [-].
   double grain_gap(const State& state, int cell) const;
 
-  /// Moduli of a cell as it is: means over its points [Pa]. With seepage those
-  /// of the skeleton, as in a slow step, unless water and grains are wanted
-  /// too, as in a wave.
+  /// Moduli of a cell as it is: means over its points [Pa].
   virtual material::Moduli moduli(const State& state, int cell, double dt,
-                                  bool fast = false) const;
+                                  Meets what = Meets::slow_step) const;
 
   /// Is there anything but void in a cell, of this rank or a ghost?
   virtual bool present(const State&, int) const { return true; }

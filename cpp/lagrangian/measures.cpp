@@ -10,14 +10,15 @@
 
 namespace mmale::lagrangian
 {
-material::Moduli Problem::moduli(const State& state, double dt) const
+material::Moduli Problem::moduli(const State& state, double dt,
+                                 Meets what) const
 {
   double sum[3] = {0, 0, 0};
   for (int c = 0; c < _domain.num_owned_cells; ++c)
   {
     if (not _element->present(state, c))
       continue;
-    const auto [G, K] = _element->moduli(state, c, dt);
+    const auto [G, K] = _element->moduli(state, c, dt, what);
     sum[0] += G;
     sum[1] += K;
     sum[2] += 1;
@@ -29,7 +30,7 @@ material::Moduli Problem::moduli(const State& state, double dt) const
 /// Of a cell as it was when the step began.
 std::array<double, 2> Problem::impedance(int c) const
 {
-  const auto [G, K] = _element->moduli(*_state, c, _constants.dt, true);
+  const auto [G, K] = _element->moduli(*_state, c, _constants.dt, Meets::wave);
   const double rho = _state->density[c];
   return {std::sqrt(rho * (K + 4 * G / 3)), std::sqrt(rho * G)};
 }

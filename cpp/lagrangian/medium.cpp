@@ -7,7 +7,8 @@ Medium::Medium(const material::AnyLaw& law,
                const std::optional<scene::Water>& water)
     : _law(&law),
       _fluid(std::visit([](const auto& l) { return l.fluid; }, law)),
-      _num_history(material::num_history(law, water.has_value()))
+      _num_history(material::num_history(law, water.has_value())),
+      _void_ratio(material::void_ratio_index(law))
 {
   if (water)
   {
@@ -23,8 +24,6 @@ Medium::Medium(const material::AnyLaw& law,
   {
     if (field.size == 4)
       _tensors.push_back(at);
-    if (field.name == "void_ratio")
-      _void_ratio = at;
     at += field.size;
   }
 }
@@ -46,11 +45,9 @@ double Medium::begin(const material::Start& start, double p_w,
         const double rho = material::initial_density(law, start);
         if (not _water)
           return rho;
-        material::Pores pores{p_w, _porosity};
-        if (_void_ratio >= 0)
-          pores.n = q[_void_ratio] / (1 + q[_void_ratio]);
-        material::set_pores(pores, q.first(_num_history));
-        return rho + pores.n * _rho_f;
+        const double n = material::porosity(*_law, q, _porosity);
+        material::set_pores({p_w, n}, q.first(_num_history));
+        return rho + n * _rho_f;
       },
       *_law);
 }

@@ -85,6 +85,6 @@ private:
   double _porosity = 0; ///< at the start, if no void ratio tells it
   int _num_history;
   std::vector<int> _tensors; ///< where in the history one begins
-  int _void_ratio = -1;
+  int _void_ratio;
 };
 } // namespace mmale::lagrangian

@@ -163,7 +163,7 @@ void MixedElement::begin_step(const State& state, double dt)
 }
 
 material::Moduli MixedElement::moduli(const State& state, int c, double dt,
-                                      bool) const
+                                      Meets) const
 {
   const Materials& materials = *state.materials;
   material::Moduli sum{0, 0};

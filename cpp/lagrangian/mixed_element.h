@@ -33,7 +33,7 @@ public:
                                const Constants& c) const override;
   void accept(State& state, std::span<const double> z, double dt) override;
   material::Moduli moduli(const State& state, int cell, double dt,
-                          bool fast = false) const override;
+                          Meets what = Meets::slow_step) const override;
   bool present(const State& state, int cell) const override;
   bool bears(const State& state, int cell) const override;
 

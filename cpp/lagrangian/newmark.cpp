@@ -11,7 +11,7 @@ Newmark::Newmark(const mesh::Domain& domain, scene::Symmetry symmetry,
     : a_0(2 * domain.num_nodes(), 0), v_0(2 * domain.num_nodes(), 0),
       r_0(scheme.damping_stiffness > 0 ? domain.num_nodes() : 0, 0),
       _domain(domain), _axisymmetric(symmetry == scene::Symmetry::axisymmetric),
-      _scheme(scheme)
+      _scheme(scheme), _held(a_0.size(), false)
 {
 }
 

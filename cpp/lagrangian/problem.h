@@ -92,6 +92,10 @@ public:
   /// RMS over the cells of (P - p) and of (theta - ln J). Collective.
   std::array<double, 2> mismatch(const State& state) const;
 
+  /// 1 for nodes that walls hold, shape (nodes), ghosts too; empty without
+  /// walls.
+  std::vector<std::uint8_t> at_wall() const { return _contact->at_wall(); }
+
   /// Displacement increments of the last step, shape (nodes, 2), ghosts too
   /// [m].
   std::span<const double> motion() const { return _motion; }
@@ -99,7 +103,8 @@ public:
   const Element& element() const { return *_element; }
 
   /// Mean moduli of all cells [Pa]. Collective.
-  material::Moduli moduli(const State& state, double dt) const;
+  material::Moduli moduli(const State& state, double dt,
+                          Meets what = Meets::slow_step) const;
 
   /// What the laws took in the last step. Collective.
   material::Effort effort() const;

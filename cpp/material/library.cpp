@@ -106,9 +106,7 @@ scene::LawInfo info_of()
   for (const Parameter<L>& p : L::parameters)
     info.parameters.push_back({std::string(p.name), std::string(p.unit),
                                p.range, L{}.*p.value, std::string(p.meaning)});
-  info.void_ratio =
-      std::ranges::any_of(L{}.history(), [](const HistoryField& field)
-                          { return field.name == "void_ratio"; });
+  info.void_ratio = void_ratio_index(L{}) >= 0;
   if constexpr (HasTexts<L>)
     for (const TextParameter<L>& t : L::texts)
       info.texts.push_back(
@@ -177,5 +175,18 @@ std::vector<std::string> history_names(const AnyLaw& law, bool water)
 int num_history(const AnyLaw& law, bool water)
 {
   return static_cast<int>(history_names(law, water).size());
+}
+
+int void_ratio_index(const AnyLaw& law)
+{
+  const auto names = history_names(law);
+  const auto at = std::ranges::find(names, "void_ratio");
+  return at == names.end() ? -1 : static_cast<int>(at - names.begin());
+}
+
+double porosity(const AnyLaw& law, std::span<const double> q, double given)
+{
+  const int at = void_ratio_index(law);
+  return at < 0 ? given : q[at] / (1 + q[at]);
 }
 } // namespace mmale::material

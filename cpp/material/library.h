@@ -12,6 +12,7 @@
 #include "scene/parameter.h"
 #include "umat.h"
 #include "void.h"
+#include <span>
 #include <variant>
 
 namespace mmale::material
@@ -38,4 +39,11 @@ int num_history(const AnyLaw& law, bool water = false);
 
 /// Names of these numbers; a tensor has four, ending in _xx, _yy, _zz, _xy.
 std::vector<std::string> history_names(const AnyLaw& law, bool water = false);
+
+/// Where the void ratio is in the history of a law; -1: it knows none.
+int void_ratio_index(const AnyLaw& law);
+
+/// Porosity of a point whose law knows its void ratio; else what is given.
+/// @param[in] q the history of the point
+double porosity(const AnyLaw& law, std::span<const double> q, double given);
 } // namespace mmale::material

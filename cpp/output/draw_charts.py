@@ -71,6 +71,26 @@ def plot(ax, x, y, i, label=None):
     )
 
 
+def draw_points(ax, x, y):
+    ax.plot(
+        x,
+        y,
+        linestyle="none",
+        marker="x",
+        color=INK,
+        markersize=6,
+        zorder=3,
+        label="reference",
+    )
+
+
+def known_points(chart):
+    """Reference values of a chart's curves, as x and y."""
+    x, y = chart["x"], chart["y"]
+    known = [p for p in chart.get("points", []) if p["x"] == x and p["y"] in y]
+    return [p["at"] for p in known], [p["value"] for p in known]
+
+
 def close_to(references, series):
     """Limits that show the plateau beside a reference, or None."""
     if len(references) != 1 or references[0]["value"] <= 0:
@@ -91,6 +111,7 @@ def draw_together(plan, chart, series, file):
 
     series: list of (x, y, name, label)."""
     references = chart["references"]
+    points = known_points(chart)
     near = close_to(references, series)
     figure, axes = plt.subplots(
         1,
@@ -104,12 +125,14 @@ def draw_together(plan, chart, series, file):
             plot(ax, x, y, i, label)
         dress(ax, [s[1] for s in series], references)
         draw_references(ax, references)
+        if points[0]:
+            draw_points(ax, *points)
         ax.set_xlabel(chart.get("x_label") or symbol(chart["x"]))
     axes[0, 0].set_ylabel(chart.get("y_label") or symbol(series[0][2]))
     if near:
         axes[0, 1].set_ylim(*near)
         axes[0, 1].set_title("the same, near the reference", fontsize=9, color=INK)
-    if len(series) + len(references) > 1:
+    if len(series) + len(references) + len(points[0]) > 1:
         axes[0, 0].legend(fontsize=9 if len(series) <= 8 else 7)
     axes[0, 0].set_title(chart.get("title") or plan["title"])
     save(figure, file)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from draw_charts import column, plot
+from draw_charts import column, draw_points, plot
 from picture import INK, Trouble, save
 from read_run import read_curves
 
@@ -66,16 +66,7 @@ def draw_panel(ax, panel, runs, sheet, data):
         plot(ax, x, y, i, label or "test")
     x, y = known_points(sheet, panel)
     if len(x):
-        ax.plot(
-            x_factor * x,
-            y_factor * y,
-            linestyle="none",
-            marker="x",
-            color=INK,
-            markersize=6,
-            zorder=3,
-            label="reference",
-        )
+        draw_points(ax, x_factor * x, y_factor * y)
     if data and panel["x"] in data and panel["y"] in data:
         ax.plot(
             x_factor * data[panel["x"]],

@@ -81,6 +81,14 @@ std::string last_line(const std::string& text)
   return text.substr(from, end + 1 - from);
 }
 
+ordered_json json(std::span<const KnownPoint> points)
+{
+  ordered_json out = ordered_json::array();
+  for (const KnownPoint& k : points)
+    out.push_back({{"x", k.x}, {"at", k.at}, {"y", k.y}, {"value", k.value}});
+  return out;
+}
+
 ordered_json json(const Chart& chart)
 {
   constexpr std::array layouts = {"together", "panels", "diagnostics"};
@@ -94,7 +102,8 @@ ordered_json json(const Chart& chart)
           {"x_label", chart.x_label},
           {"y", chart.y},
           {"y_label", chart.y_label},
-          {"references", lines}};
+          {"references", lines},
+          {"points", json(chart.points)}};
 }
 
 ordered_json json(const Sheet& sheet)
@@ -102,13 +111,9 @@ ordered_json json(const Sheet& sheet)
   ordered_json panels = ordered_json::array();
   for (const Panel& p : sheet.panels)
     panels.push_back({{"x", p.x}, {"y", p.y}, {"log_x", p.log_x}});
-  ordered_json points = ordered_json::array();
-  for (const KnownPoint& k : sheet.points)
-    points.push_back(
-        {{"x", k.x}, {"at", k.at}, {"y", k.y}, {"value", k.value}});
   return {{"file", sheet.name + ".png"},
           {"panels", panels},
-          {"points", points},
+          {"points", json(sheet.points)},
           {"data", sheet.data}};
 }
 
@@ -129,7 +134,8 @@ std::string run_draw(std::vector<std::string> words)
 }
 
 /// The scene's charts as it names them.
-std::vector<Chart> own_charts(const scene::Scene& scene)
+std::vector<Chart> own_charts(const scene::Scene& scene,
+                              const std::vector<KnownPoint>& points)
 {
   std::vector<Chart> out;
   for (const auto& [name, c] : scene.output.chart)
@@ -137,6 +143,7 @@ std::vector<Chart> own_charts(const scene::Scene& scene)
                    .x = c.x,
                    .y = c.y,
                    .references = c.references,
+                   .points = points,
                    .title = c.title,
                    .x_label = c.x_label,
                    .y_label = c.y_label});
@@ -160,6 +167,16 @@ std::vector<std::string> left_over(std::span<const std::string> columns,
   return out;
 }
 } // namespace
+
+std::vector<KnownPoint> known_points(std::span<const Reference> references)
+{
+  std::vector<KnownPoint> out;
+  for (const Reference& r : references)
+    if (r.take == Reference::Take::at
+        and r.relation == Reference::Relation::near)
+      out.push_back({r.at.first, r.at.second, r.curve, r.reference});
+  return out;
+}
 
 std::vector<Chart> charts(std::span<const std::string> curves,
                           std::span<const Reference> references)
@@ -204,7 +221,7 @@ Pictures pictures(const scene::Scene& scene,
     if (column != "time")
       (scene.output.curve.contains(column) ? own : others).push_back(column);
   Pictures out{.title = scene.title,
-               .charts = own_charts(scene),
+               .charts = own_charts(scene, known_points(references)),
                .fields = scene.output.picture,
                .info = info,
                .axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric};

@@ -26,6 +26,18 @@ enum class Layout
   diagnostics ///< small panels, without those that are NaN or 0 throughout
 };
 
+/// A known point of curve `y` where curve `x` has a value.
+struct KnownPoint
+{
+  std::string x = {};
+  double at = 0;
+  std::string y = {};
+  double value = 0;
+};
+
+/// Those that references tell: near a value, at a place.
+std::vector<KnownPoint> known_points(std::span<const Reference> references);
+
 /// Curves over one abscissa in one picture.
 struct Chart
 {
@@ -33,6 +45,7 @@ struct Chart
   std::string x = {};              ///< column of curves.csv
   std::vector<std::string> y = {}; ///< columns of curves.csv
   std::vector<ReferenceLine> references = {};
+  std::vector<KnownPoint> points = {}; ///< drawn if they are of its columns
   Layout layout = Layout::together;
   std::string title = {};                 ///< default that of the run
   std::string x_label = {}, y_label = {}; ///< default the names
@@ -43,15 +56,6 @@ struct Panel
 {
   std::string x = {}, y = {}; ///< columns of curves.csv
   bool log_x = false;
-};
-
-/// A known point of curve `y` where curve `x` has a value.
-struct KnownPoint
-{
-  std::string x = {};
-  double at = 0;
-  std::string y = {};
-  double value = 0;
 };
 
 /// Panels with abscissas of their own in one picture.

@@ -80,8 +80,9 @@ void check_body_curve(const Scene& scene, const Outline* outline,
                       const Curve& c, const std::string& key, Complaints& out)
 {
   const auto known = outline ? outline->names() : std::vector<std::string>();
+  const bool place = c.quantity == "x_max" or c.quantity == "y_max";
   const bool reaction =
-      c.quantity.starts_with("reaction") or c.quantity == "discharge";
+      c.quantity.starts_with("reaction") or c.quantity == "discharge" or place;
   if (scene.motion)
     out.push_back({key + ".quantity",
                    c.quantity + " is not known with a prescribed motion",
@@ -90,7 +91,8 @@ void check_body_curve(const Scene& scene, const Outline* outline,
     out.push_back({key + ".tracer", "is not used by " + c.quantity, {}});
   if (reaction and c.point and c.quantity != "discharge")
     out.push_back({key + ".point",
-                   "a reaction belongs to a boundary, not to a point",
+                   std::format("a {} belongs to a boundary, not to a point",
+                               place ? "largest place" : "reaction"),
                    {}});
   else if (c.point and not c.boundary.empty())
     out.push_back({key + ".point", "give boundary or point, not both", {}});

@@ -79,6 +79,34 @@ void check_condition(const Outline::Part* part, const Condition& c,
                    {}});
 }
 
+/// A wall has one place, and moves along itself alone.
+void check_wall(const Wall& wall, const std::string& key, Complaints& out)
+{
+  if (not wall.x and not wall.y)
+    out.push_back({key,
+                   "needs x, where an upright wall stands, or y, where a level "
+                   "one lies [m]",
+                   {}});
+  else if (wall.x and wall.y)
+    out.push_back({key + ".y", "x is given too; a wall has one of the two", {}});
+  const auto moved = [&](bool across, bool along, const char* name)
+  {
+    if (across)
+      out.push_back({key + name,
+                     "would move the wall off its place; it may go along "
+                     "itself",
+                     {}});
+    else if (along and wall.grip == "smooth")
+      out.push_back(
+          {key + name, "has no effect: the wall is smooth", {}});
+  };
+  const bool level = not wall.x;
+  moved(wall.velocity_x and not level, wall.velocity_x and level,
+        ".velocity_x");
+  moved(wall.velocity_y and level, wall.velocity_y and not level,
+        ".velocity_y");
+}
+
 void check_steps(const Stage& stage, const std::string& key, Complaints& out)
 {
   const auto ordered =
@@ -403,7 +431,11 @@ void check_stages(const Scene& scene, const Outline* outline, Complaints& out)
         out.push_back(
             {where, "no such boundary, " + suggestion(name, known), {}});
       else
+      {
         check_condition(part, condition, where, out);
+        if (condition.wall)
+          check_wall(*condition.wall, where + ".wall", out);
+      }
     }
   }
 }

@@ -116,14 +116,16 @@ struct TimeSeries
   double integral(double t) const;
 };
 
-/// A rigid upright wall that a free surface may come to touch and cannot pass,
-/// like the flank of a punch.
+/// A rigid wall, upright or level, that a free surface may come to touch and
+/// cannot pass: the flank of a punch, the ground that a slope runs out on.
 struct Wall
 {
-  double x = required;         ///< [m]
+  std::optional<double> x;     ///< where an upright one stands [m]
+  std::optional<double> y;     ///< or a level one lies [m]
   std::string grip = "smooth"; ///< "smooth": slides and lifts off; "rough":
                                ///< what has touched it moves with it
-  std::optional<TimeSeries> velocity_y; ///< of a rough wall [m/s]
+  /// Of a rough wall, along it [m/s].
+  std::optional<TimeSeries> velocity_x, velocity_y;
 };
 
 /// Water in the pores of the material; without this table it is dry.
@@ -376,9 +378,9 @@ struct Curve
 {
   std::string quantity;       ///< of a boundary or point: displacement_x|y,
                               ///< velocity_x|y, pressure; of a boundary:
-                              ///< reaction_x|y; of a point: stress_xx|yy|zz|xy;
-                              ///< with water also pore_pressure,
-                              ///< effective_stress_xx|yy|zz|xy; with seepage
+                              ///< reaction_x|y, largest place x_max, y_max;
+                              ///< of a point: stress_xx|yy|zz|xy; with water
+                              ///< pore_pressure, effective_stress_..; seepage:
                               ///< discharge of a boundary, outward;
                               ///< of a dynamic body: kinetic_energy,
                               ///< internal_work, external_work, total_energy;

@@ -245,14 +245,16 @@ inline const std::vector<std::string> grips = {"smooth", "rough"};
 template <class V>
 void keys(V& v, Wall& w)
 {
-  v({"x", "m", "Where the upright wall stands."}, w.x);
+  v({"x", "m", "Where an upright wall stands."}, w.x);
+  v({"y", "m", "Or where a level wall lies."}, w.y);
   v({"grip",
      "",
      "Smooth: slides and lifts off; rough: holds what it touches.",
      {},
      grips},
     w.grip);
-  v({"velocity_y", "m/s", "Velocity of a rough wall along y."}, w.velocity_y);
+  v({"velocity_x", "m/s", "Velocity of a rough level wall."}, w.velocity_x);
+  v({"velocity_y", "m/s", "Velocity of a rough upright wall."}, w.velocity_y);
 }
 
 template <class V>
@@ -270,7 +272,7 @@ void keys(V& v, Condition& c)
   v({"traction_y", "Pa", "Force on the body along y per area."}, c.traction_y);
   v({"pressure", "Pa", "Pressure on the body, stays normal to the surface."},
     c.pressure);
-  v({"wall", "", "Rigid upright wall that it may touch and cannot pass."},
+  v({"wall", "", "Rigid wall that it may touch and cannot pass."},
     c.wall);
   v({"absorbing", "", "Dashpots let waves out; of a stage with dynamics."},
     c.absorbing);

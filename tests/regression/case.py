@@ -6,13 +6,11 @@ Cases NAME_np_N compare N processes with one. Needs the standard library only.
 """
 
 import csv
-import re
-import shutil
 import sys
 import tempfile
 from pathlib import Path
 
-from common import finish, hold, ranked, summary
+from common import finish, hold, ranked, run_case, summary
 
 PROGRAM, DEMOS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 WORK = Path(tempfile.mkdtemp(prefix="mmale_regression_"))  # folder of this case
@@ -92,11 +90,4 @@ def copy_of(demo, **changes):
 
 def main(cases):
     """Run the case of the command line, one of the functions in `cases`."""
-    case = sys.argv[3]
-    try:
-        if found := re.fullmatch(r"(\w+_np)_(\d)", case):
-            cases[found[1]](int(found[2]))
-        else:
-            cases[{"signal": "signal_"}.get(case, case)]()
-    finally:
-        shutil.rmtree(WORK, ignore_errors=True)
+    run_case({**cases, "signal": cases.get("signal_")}, sys.argv[3], WORK)

@@ -2,6 +2,8 @@
 """What the scripts of this folder share: start the program, look, and say so."""
 
 import json
+import re
+import shutil
 import subprocess
 import sys
 
@@ -35,3 +37,14 @@ def hold(condition, what):
 
 def summary(folder):
     return json.loads((folder / "summary.json").read_text())
+
+
+def run_case(cases, case, work):
+    """A case, one of the functions in `cases`; its folder goes at the end."""
+    try:
+        if found := re.fullmatch(r"(\w+_np)_(\d)", case):
+            cases[found[1]](int(found[2]))
+        else:
+            cases[case]()
+    finally:
+        shutil.rmtree(work, ignore_errors=True)

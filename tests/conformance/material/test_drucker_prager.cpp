@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "paths.h"
+#include "cones.h"
 
-#include <catch2/catch_approx.hpp>
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
-#include <numbers>
 
 using namespace mmale;
 using namespace mmale::material;
@@ -15,9 +13,6 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace
 {
-constexpr double E = 2e7, nu = 0.27, c = 4e3, phi = 31, psi = 9;
-constexpr double G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
-
 DruckerPrager law(std::string cone = "compression", double friction = phi,
                   double dilation = psi, double cohesion = c,
                   double tension = not_given)
@@ -32,29 +27,11 @@ DruckerPrager law(std::string cone = "compression", double friction = phi,
           .cone = std::move(cone)};
 }
 
-double sine(double degrees)
-{
-  return std::sin(degrees * std::numbers::pi / 180);
-}
-double cosine(double degrees)
-{
-  return std::cos(degrees * std::numbers::pi / 180);
-}
-double flow_number(double degrees)
-{
-  return (1 + sine(degrees)) / (1 - sine(degrees));
-}
-
 /// Mohr-Coulomb's excess, of which the cones are to be circles.
 double hexagon(const Voigt& sigma)
 {
   const auto v = principal(sigma);
   return (v[0] - v[2]) + (v[0] + v[2]) * sine(phi) - 2 * c * cosine(phi);
-}
-
-Voigt random_stress(Random& random, double size)
-{
-  return random.deviator(size) + size * random.unit() * Voigt(1, 1, 1, 0);
 }
 
 std::vector<DruckerPrager> kinds()
@@ -152,12 +129,8 @@ TEST_CASE("Drucker-Prager: a gap opens at the tip and closes again",
   const double cut = GENERATE(not_given, 1.5e3);
   const DruckerPrager l = law("compression", phi, psi, c, cut);
   const double floor = -std::min(cut, c * cosine(phi) / sine(phi));
-  Body b = body(-2e4 * Voigt(1, 1, 1, 0));
-  const double contact = (2e4 - floor) / K;
-  const Response r = advance(l, b, (contact + 0.02) / 3 * Voigt(1, 1, 1, 0));
-  CHECK(b.p == Approx(floor - Gap::gap_share * K * 0.02).epsilon(1e-12));
-  CHECK(r.dp_dtheta == Approx(-Gap::gap_share * K));
-  CHECK(r.effort.apex == 1);
+  Body b;
+  const double contact = open_gap(l, floor, b);
   advance(l, b, -(0.02 + contact) / 3 * Voigt(1, 1, 1, 0));
   CHECK(b.p == Approx(2e4).epsilon(1e-9));
   CHECK(b.s.norm() < 1e-9);
@@ -176,8 +149,7 @@ TEST_CASE("Drucker-Prager: random steps end on the cone, lose work and fall "
     double worst = 0, least_work = 0, most_stiff = -1e300;
     for (int trial = 0; trial < 4000; ++trial)
     {
-      Body b = body(random_stress(random, 3 * c));
-      (void)l.admit(b.s, b.p, b.q);
+      Body b = admissible(l, random);
       const bool gap_before = b.p < cone.floor;
       const Voigt before = b.sigma();
       const Voigt strain = compliance(
@@ -213,82 +185,20 @@ TEST_CASE("Drucker-Prager: with associated flow the answer is the nearest "
 {
   const double cut = GENERATE(not_given, 0.5 * c);
   const DruckerPrager l = law("inscribed", phi, phi, c, cut);
-  const double floor = l.numbers().floor;
-  Random random(32);
-  double worst = -1;
-  for (int trial = 0; trial < 1000; ++trial)
-  {
-    const Voigt far = random_stress(random, 10 * c);
-    Body b = body(Voigt::Zero());
-    if (advance(l, b, compliance(E, nu, far)).effort.apex)
-      b.p = floor; // but for the gap
-    const Voigt plastic = compliance(E, nu, far - b.sigma());
-    for (int k = 0; k < 50; ++k)
-    {
-      Body tau = body(random_stress(random, 10 * c));
-      tau.p = std::max(tau.p, floor);
-      (void)l.admit(tau.s, tau.p, tau.q);
-      worst = std::max(worst, work(tau.sigma() - b.sigma(), plastic)
-                                  / (far.squaredNorm() / E));
-    }
-  }
-  CHECK(worst < 1e-13);
+  check_nearest(l, l.numbers().floor, 32);
 }
 
 TEST_CASE("Drucker-Prager: the tangent is the derivative, on the cone, at the "
           "cut-off and at the tip",
           "[conformance][material]")
 {
-  Random random(33);
-  constexpr double h = 1e-5;
-  for (const DruckerPrager& l : kinds())
-  {
-    INFO("friction " << l.friction_deg << ", cut-off " << l.tensile_strength);
-    int kinks = 0;
-    double worst = 0;
-    constexpr int trials = 1500;
-    for (int trial = 0; trial < trials; ++trial)
-    {
-      Body b = body(random_stress(random, 3 * c));
-      (void)l.admit(b.s, b.p, b.q);
-      const Voigt strain = compliance(E, nu, random_stress(random, 5 * c));
-      const Voigt d = compliance(E, nu, random_stress(random, c));
-      const auto at = [&](double x)
-      {
-        const Response r = answer(l, b, strain + x * d);
-        return Voigt(r.s - r.p * Voigt(1, 1, 1, 0));
-      };
-      const Voigt low = at(-h), mid = at(0), high = at(h);
-      if ((high - 2 * mid + low).norm() > 1e-3 * h * c)
-      {
-        ++kinks;
-        continue;
-      }
-      const Voigt exact = stiffness(answer(l, b, strain)) * d;
-      worst = std::max(worst, ((high - low) / (2 * h) - exact).norm() / c);
-    }
-    CHECK(worst < 1e-6);
-    CHECK(kinks < trials / 50);
-  }
+  check_tangent(kinds(), 33);
 }
 
 TEST_CASE("Drucker-Prager: steps are of first order where the stress turns",
           "[conformance][material]")
 {
-  const DruckerPrager l = law();
-  const auto end = [&](int steps)
-  {
-    Body b = body({-4e4, -9e4, -5e4, 0});
-    for (int k = 0; k < steps; ++k)
-      advance(l, b, Voigt(1e-3, -3e-3, 0, 8e-3) / steps);
-    return b.sigma();
-  };
-  const Voigt exact = end(20000);
-  const double coarse = (end(20) - exact).norm(),
-               fine = (end(40) - exact).norm();
-  CAPTURE(coarse, fine);
-  CHECK(fine < 2e-2 * exact.norm());
-  CHECK(std::log2(coarse / fine) == Approx(1).margin(0.1));
+  check_first_order(law(), 2e-2);
 }
 
 TEST_CASE("naive: a return along the cone alone turns the stress round beyond "

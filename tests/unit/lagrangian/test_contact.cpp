@@ -10,21 +10,24 @@ using namespace mmale::lagrangian;
 
 namespace
 {
-/// Unit square whose right side may meet a wall at x = 1.2.
+/// Unit square whose right side may meet a wall at x = 1.2, or its top a level
+/// one at y = 1.2.
 struct Body
 {
-  explicit Body(const std::string& grip)
+  explicit Body(const std::string& grip, bool level = false)
+      : normal(level ? 1 : 0)
   {
     stage.duration = stage.step = 1;
-    auto& wall = stage.boundary["right"].wall.emplace();
-    wall.x = 1.2;
+    const std::string side = level ? "top" : "right";
+    auto& wall = stage.boundary[side].wall.emplace();
+    (level ? wall.y : wall.x) = 1.2;
     wall.grip = grip;
-    wall.velocity_y = scene::TimeSeries{{}, {-0.5}};
+    (level ? wall.velocity_x : wall.velocity_y) = scene::TimeSeries{{}, {-0.5}};
     conditions.emplace(domain, stage);
     contact.emplace(domain, *conditions);
     z.assign(3 * domain.num_nodes(), 0);
     force.assign(3 * domain.num_nodes(), 0);
-    for (int n : domain.boundary_nodes(domain.boundary("right")))
+    for (int n : domain.boundary_nodes(domain.boundary(side)))
       nodes.push_back(n);
   }
 
@@ -59,12 +62,13 @@ struct Body
   std::optional<Contact> contact;
   std::vector<double> z, force;
   std::vector<int> nodes;
+  int normal;
 
 private:
   void set(std::vector<double>& v, double x)
   {
     for (int n : nodes)
-      v[3 * n] = x;
+      v[3 * n + normal] = x;
   }
 };
 } // namespace
@@ -108,4 +112,33 @@ TEST_CASE("what has touched a rough wall goes with it", "[unit][contact]")
   CHECK_FALSE(body.update()); // even when pulled
   CHECK(body.held(body.nodes[0], 0) == Catch::Approx(0.2));
   CHECK(body.held(body.nodes[0], 1) == Catch::Approx(-0.5));
+}
+
+TEST_CASE("a level wall is an upright one turned by a right angle",
+          "[unit][contact]")
+{
+  for (const std::string grip : {"smooth", "rough"})
+    for (const bool pulled : {false, true})
+    {
+      INFO(grip << (pulled ? ", pulled" : ", pushed"));
+      // the x of one is the y of the other; the square is its own mirror image
+      Body upright(grip), level(grip, true);
+      for (Body* body : {&upright, &level})
+      {
+        body->contact->begin_step(body->domain.initial_x, 0, 1);
+        body->move(0.3);
+        CHECK(body->update());
+        body->move(0.2);
+        body->push(pulled ? 1e3 : -1e3);
+        body->update();
+      }
+      for (int d = 0; d < 2; ++d)
+      {
+        const double a = upright.held(upright.nodes[0], d);
+        const double b = level.held(level.nodes[0], 1 - d);
+        CHECK((a == b or (std::isnan(a) and std::isnan(b))));
+      }
+      const bool let_go = pulled and grip == "smooth";
+      CHECK(std::isnan(level.held(level.nodes[0], 1)) == let_go);
+    }
 }

@@ -18,13 +18,13 @@ scene::Stage stage(double duration, double step)
   s.step = step;
   return s;
 }
-constexpr int easy = 2, hard = 12; // Newton iterations
+constexpr int easy = 2, hard = 12, most = 15; // Newton iterations
 } // namespace
 
 TEST_CASE("equal steps end where the stage ends", "[unit][step_control]")
 {
   const int n = GENERATE(1, 3, 7, 250, 1000);
-  StepControl control(stage(0.25, 0.25 / n), {});
+  StepControl control(stage(0.25, 0.25 / n), {}, most);
   int steps = 0;
   while (not control.finished())
   {
@@ -38,7 +38,7 @@ TEST_CASE("equal steps end where the stage ends", "[unit][step_control]")
 TEST_CASE("a failed step is halved and tried from the same time",
           "[unit][step_control]")
 {
-  StepControl control(stage(1, 0.1), {});
+  StepControl control(stage(1, 0.1), {}, most);
   control.accepted(hard);
   CHECK(control.next() == Approx(0.2));
   REQUIRE(control.failed());
@@ -52,12 +52,12 @@ TEST_CASE("below the floor it gives up", "[unit][step_control]")
 {
   scene::Stage s = stage(1, 0.1);
   s.step_min = 0.02;
-  StepControl control(s, {});
+  StepControl control(s, {}, most);
   CHECK(control.failed());       // 0.05
   CHECK(control.failed());       // 0.025
   CHECK_FALSE(control.failed()); // 0.0125 is below
 
-  StepControl standard(stage(1, 1.024), {});
+  StepControl standard(stage(1, 1.024), {}, most);
   CHECK(standard.floor() == Approx(0.001)); // a 1024th of the first step
   int halvings = 0;
   while (standard.failed())
@@ -70,7 +70,7 @@ TEST_CASE("easy steps grow by half up to the ceiling, hard ones do not",
 {
   scene::Stage s = stage(100, 1);
   s.step_max = 3;
-  StepControl control(s, {});
+  StepControl control(s, {}, most);
   control.accepted(hard);
   CHECK(control.step() == 1);
   control.accepted(easy);
@@ -80,7 +80,8 @@ TEST_CASE("easy steps grow by half up to the ceiling, hard ones do not",
   control.accepted(easy);
   CHECK(control.step() == 3);
 
-  StepControl standard(stage(100, 1), {}); // its ceiling is the first step
+  StepControl standard(stage(100, 1), {},
+                       most); // its ceiling is the first step
   standard.accepted(easy);
   CHECK(standard.step() == 1);
   REQUIRE(standard.failed());
@@ -88,6 +89,17 @@ TEST_CASE("easy steps grow by half up to the ceiling, hard ones do not",
   CHECK(standard.step() == 0.75);
   standard.accepted(easy);
   CHECK(standard.step() == 1);
+}
+
+TEST_CASE("what is easy goes with the iterations that a step may take",
+          "[unit][step_control]")
+{
+  // friction takes six at any step: steps once halved are to grow again
+  const int allowed = GENERATE(15, 40);
+  StepControl control(stage(100, 1), {}, allowed);
+  REQUIRE(control.failed());
+  control.accepted(6);
+  CHECK(control.step() == (allowed == 15 ? 0.5 : 0.75));
 }
 
 TEST_CASE("marks are met exactly, whatever happens on the way",
@@ -99,7 +111,7 @@ TEST_CASE("marks are met exactly, whatever happens on the way",
   const std::vector<double> marks{0.7, 0.123456789, 1.0 / 3, 0.70001};
   scene::Stage s = stage(1, 0.04);
   s.step_max = 0.2;
-  StepControl control(s, marks);
+  StepControl control(s, marks, most);
   std::vector<double> times;
   while (not control.finished())
   {
@@ -125,7 +137,7 @@ TEST_CASE("marks are met exactly, whatever happens on the way",
 TEST_CASE("what is left before a mark is shared, not left as a crumb",
           "[unit][step_control]")
 {
-  StepControl control(stage(1, 0.1), {0.12});
+  StepControl control(stage(1, 0.1), {0.12}, most);
   CHECK(control.next() == Approx(0.06)); // 0.12 is less than one and a half
   control.accepted(hard);
   CHECK(control.next() == 0.12);

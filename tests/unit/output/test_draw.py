@@ -134,6 +134,7 @@ def write_run(folder, pieces=1, size=0.05, n=10):
     scene = {"title": f"x {size}", "mesh": {"size": size, "shape": "rectangle"}}
     (folder / "summary.json").write_text(json.dumps({"scene": scene}))
     line = {"value": 2.9685, "label": "(2+pi)/sqrt(3), Prandtl"}
+    known = {"x": "z_B", "at": 0.05, "y": "p_sy", "value": 2.9685}
     plan = {
         "title": "Piercing of a J2 billet",
         "axisymmetric": False,
@@ -144,6 +145,7 @@ def write_run(folder, pieces=1, size=0.05, n=10):
                 "x": "z_B",
                 "y": ["p_sy", "p_sy_eff"],
                 "references": [line],
+                "points": [known],
             },
             {
                 "file": "curves.png",
@@ -248,6 +250,19 @@ class Draw(unittest.TestCase):
                 breadth, height = png_size(run / f"{name}.png")
                 self.assertGreater(min(breadth, height), 400, name)
             self.assertEqual(list(run.glob("*.part")), [])
+
+    def test_known_points_are_those_of_the_chart(self):
+        known = [
+            {"x": x, "at": at, "y": y, "value": value}
+            for x, at, y, value in (
+                ("z", 1, "p", 5),
+                ("time", 2, "p", 6),
+                ("z", 3, "q", 7),
+                ("z", 4, "u", 8),
+            )
+        ]
+        chart = {"x": "z", "y": ["p", "u"], "points": known}
+        self.assertEqual(draw_charts.known_points(chart), ([1, 4], [5, 8]))
 
     def test_pieces_are_joined_without_their_ghosts(self):
         write_output(self.folder, 0, 0.1, 1)

@@ -104,6 +104,11 @@ TEST_CASE("pictures: every column is drawn, the scene's apart from the others")
     CHECK(c[0].references[0].label == "two");
     CHECK(c[0].title == "T");
     CHECK(c[0].layout == Layout::together);
+    REQUIRE(c[0].points.size() == 1); // known values at a place
+    CHECK(c[0].points[0].x == "z_B");
+    CHECK(c[0].points[0].at == 0.05);
+    CHECK(c[0].points[0].y == "p_sy");
+    CHECK(c[0].points[0].value == 2.9685);
     CHECK(c[1].y == std::vector<std::string>{"p_sy"});
   }
   SECTION("nothing is drawn of nothing")

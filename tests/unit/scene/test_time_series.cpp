@@ -60,7 +60,8 @@ TEST_CASE("time series: a ramp that starts at 0 has no plateau before it",
 
 TEST_CASE("time series: a sine about a mean, and its exact integral", "[scene]")
 {
-  const TimeSeries series = {.value = {3},
+  const TimeSeries series = {.time = {},
+                             .value = {3},
                              .amplitude = 2,
                              .frequency = 0.25,
                              .phase_deg = 90}; // 3 + 2 cos(pi t / 2)

@@ -77,7 +77,7 @@ struct Remapped
     before = grains();
     bridge::RemapLog log;
     REQUIRE(sim.remap->due(state, 1));
-    sim.remap->run(state, log);
+    sim.remap->run(state, {}, log);
     INFO(log.trouble);
     REQUIRE(log.done);
   }

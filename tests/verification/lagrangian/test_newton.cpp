@@ -118,7 +118,7 @@ TEST_CASE("step control recovers from a step that is too large",
   const auto stage = squeeze(0.25);
   Body body(scene);
   body.set_stage(stage);
-  StepControl control(stage, {});
+  StepControl control(stage, {}, 15);
   int rejected = 0, taken = 0;
   while (not control.finished())
   {

@@ -2,6 +2,7 @@
 // Water in a basin, against the linear theory of sloshing, and viscous flow
 // between plates.
 #include "basin.h"
+#include "roughness.h"
 
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
@@ -61,6 +62,69 @@ TEST_CASE("a basin sloshes at its exact frequency, up to h^2",
   CAPTURE(error[0], error[1], error[2]);
   CHECK(std::log2(error[0] / error[1]) > 1.8);
   CHECK(std::log2(error[1] / error[2]) > 1.8);
+}
+
+namespace
+{
+/// Many periods, 50 steps each; what is left of the amplitude, the mean period
+/// over the exact one and the roughness of p over rho g A.
+struct Many
+{
+  int steps = 0; ///< that went well
+  double period = 0, amplitude = 0, roughness = 0;
+};
+
+Many slosh(Basin& basin, int periods)
+{
+  const double A = Basin::amplitude, dt = Basin::period() / 50;
+  basin.push(A * Basin::frequency());
+  basin.begin(dt);
+  Many out;
+  double last = 0, first_crossing = 0, crossing = 0;
+  int crossings = 0;
+  for (int k = 1; k <= 50 * periods and basin.try_step(dt); ++k)
+  {
+    const double now = basin.surface();
+    if (last * now < 0)
+    {
+      crossing = (k - 1 + last / (last - now)) / 50;
+      first_crossing = crossings++ == 0 ? crossing : first_crossing;
+    }
+    if (k % 50 == 1)
+      out.amplitude = 0;
+    out.amplitude = std::max(out.amplitude, std::abs(now) / A);
+    last = now;
+    out.steps = k;
+  }
+  out.period = 2 * (crossing - first_crossing) / (crossings - 1);
+  out.roughness = test::roughness(basin.body, basin.body.state().p)
+                  / (Basin::rho * Basin::g * A);
+  return out;
+}
+
+void check_many(const Many& got, int periods, double trapezoid_and_mesh)
+{
+  CAPTURE(got.steps, got.period, got.amplitude, got.roughness);
+  REQUIRE(got.steps == 50 * periods);
+  CHECK(std::abs(got.period - 1) < trapezoid_and_mesh);
+  CHECK(got.amplitude == Approx(1).epsilon(0.05));
+  // a mesh that moves with water for long gets noisy; this bounds the noise
+  CHECK(got.roughness < 3);
+}
+} // namespace
+
+TEST_CASE("a basin goes on sloshing: 20 periods of 8 cells",
+          "[verification][fluid]")
+{
+  Basin basin(Basin::scene(8), {.alpha = -0.05});
+  check_many(slosh(basin, 20), 20, 0.035);
+}
+
+TEST_CASE("a basin goes on sloshing: 20 periods of 16 cells",
+          "[verification][fluid][slow]")
+{
+  Basin basin(Basin::scene(16), {.alpha = -0.05});
+  check_many(slosh(basin, 20), 20, 1e-2);
 }
 
 TEST_CASE("water does not slosh with a bubble that has no inertia",
