@@ -91,8 +91,8 @@ private:
 
   const mesh::Domain& _domain;
   std::vector<::remap::Kind> _kinds, _placed;
-  std::vector<int> _curved;  ///< nodes of curved boundaries
-  std::vector<int> _corners; ///< of free surfaces when first laid
+  std::vector<int> _curved;              ///< nodes of curved boundaries
+  std::vector<int> _corners;             ///< of free surfaces when first laid
   std::vector<std::uint8_t> _is_surface; ///< of each boundary
   std::vector<std::uint8_t> _on_surface; ///< of each node
   std::vector<double> _direction;

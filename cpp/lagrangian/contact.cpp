@@ -33,8 +33,7 @@ Contact::Contact(const mesh::Domain& domain, const Conditions& conditions)
 void Contact::begin_step(std::span<const double> x, double t0, double t1)
 {
   for (std::size_t w = 0; w < _walls.size(); ++w)
-    _way[w] =
-        _walls[w].velocity.integral(t1) - _walls[w].velocity.integral(t0);
+    _way[w] = _walls[w].velocity.integral(t1) - _walls[w].velocity.integral(t0);
   for (Candidate& c : _candidates)
   {
     const Wall& wall = _walls[c.wall];
@@ -56,8 +55,8 @@ bool Contact::update(std::span<const double> x, std::span<const double> z,
       continue;
     const Wall& wall = _walls[c.wall];
     const int i = 3 * c.node + wall.normal;
-    const double gap
-        = wall.sign * (x[2 * c.node + wall.normal] + z[i] - wall.at);
+    const double gap =
+        wall.sign * (x[2 * c.node + wall.normal] + z[i] - wall.at);
     const double push = wall.sign * force[i] / stiffness;
     const bool hold =
         wall.rough ? c.held or gap < -_gap : push - gap > -1e-3 * _gap;

@@ -88,7 +88,8 @@ void check_wall(const Wall& wall, const std::string& key, Complaints& out)
                    "one lies [m]",
                    {}});
   else if (wall.x and wall.y)
-    out.push_back({key + ".y", "x is given too; a wall has one of the two", {}});
+    out.push_back(
+        {key + ".y", "x is given too; a wall has one of the two", {}});
   const auto moved = [&](bool across, bool along, const char* name)
   {
     if (across)
@@ -97,8 +98,7 @@ void check_wall(const Wall& wall, const std::string& key, Complaints& out)
                      "itself",
                      {}});
     else if (along and wall.grip == "smooth")
-      out.push_back(
-          {key + name, "has no effect: the wall is smooth", {}});
+      out.push_back({key + name, "has no effect: the wall is smooth", {}});
   };
   const bool level = not wall.x;
   moved(wall.velocity_x and not level, wall.velocity_x and level,

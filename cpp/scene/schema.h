@@ -272,8 +272,7 @@ void keys(V& v, Condition& c)
   v({"traction_y", "Pa", "Force on the body along y per area."}, c.traction_y);
   v({"pressure", "Pa", "Pressure on the body, stays normal to the surface."},
     c.pressure);
-  v({"wall", "", "Rigid wall that it may touch and cannot pass."},
-    c.wall);
+  v({"wall", "", "Rigid wall that it may touch and cannot pass."}, c.wall);
   v({"absorbing", "", "Dashpots let waves out; of a stage with dynamics."},
     c.absorbing);
   v({"drained", "", "Pore pressure 0; otherwise no water passes."}, c.drained);
