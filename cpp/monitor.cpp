@@ -259,6 +259,8 @@ double Monitor::value(const Column& c) const
     return stress(c.point, q.substr(17), effective_stress());
   if (q == "x_max" or q == "y_max")
     return largest_place(c.boundary, q == "x_max" ? 0 : 1);
+  if (q == "covered_length")
+    return covered_length(c.boundary, c.curve.material);
   if (q == "discharge")
     return _discharge[c.boundary];
   if (q == "pore_pressure")

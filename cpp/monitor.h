@@ -60,6 +60,7 @@ private:
   bool has_void_ratio() const;
   std::vector<double> grain_gap() const;
   void add_material_fields(std::vector<output::NamedField>& out);
+  double covered_length(int boundary, const std::string& material) const;
   std::array<double, 2> amount(std::int32_t material) const;
   void add_water_fields(std::vector<output::NamedField>& out);
   double boundary_mean(int boundary, std::span<const double> nodal, int size,

@@ -3,6 +3,7 @@
 #include "monitor.h"
 
 #include "mesh/corners.h"
+#include <cmath>
 #include <numbers>
 
 namespace mmale
@@ -47,6 +48,26 @@ void Monitor::add_material_fields(std::vector<output::NamedField>& out)
   }
   for (std::size_t i = 0; i < names.size(); ++i)
     out.push_back({names[i], Location::cell, 1, _of_materials[i], ""});
+}
+
+/// Length of a boundary with a material behind it, by the fractions of the
+/// cells there [m]. Collective.
+double Monitor::covered_length(int boundary, const std::string& material) const
+{
+  const auto& table = _sim.scene.material;
+  const auto k = static_cast<std::int32_t>(
+      std::distance(table.begin(), table.find(material)));
+  const auto& x = _sim.state.x;
+  double sum = 0;
+  for (const mesh::Facet& f : _sim.domain.facets)
+    if (f.boundary == boundary and f.cell < _sim.domain.num_owned_cells)
+      sum += std::hypot(x[2 * f.a] - x[2 * f.b],
+                        x[2 * f.a + 1] - x[2 * f.b + 1])
+             * (_sim.state.materials
+                    ? _sim.state.materials->fraction(f.cell, k)
+                    : 1);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, _sim.domain.comm);
+  return sum;
 }
 
 /// Volume and mass of a material [m3/m, kg/m, or m3 and kg]. Collective.

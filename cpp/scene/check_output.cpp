@@ -82,7 +82,8 @@ void check_body_curve(const Scene& scene, const Outline* outline,
   const auto known = outline ? outline->names() : std::vector<std::string>();
   const bool place = c.quantity == "x_max" or c.quantity == "y_max";
   const bool reaction =
-      c.quantity.starts_with("reaction") or c.quantity == "discharge" or place;
+      c.quantity.starts_with("reaction") or c.quantity == "discharge" or place
+      or c.quantity == "covered_length";
   if (scene.motion)
     out.push_back({key + ".quantity",
                    c.quantity + " is not known with a prescribed motion",
@@ -92,11 +93,23 @@ void check_body_curve(const Scene& scene, const Outline* outline,
   if (reaction and c.point and c.quantity != "discharge")
     out.push_back({key + ".point",
                    std::format("a {} belongs to a boundary, not to a point",
-                               place ? "largest place" : "reaction"),
+                               place                            ? "largest place"
+                               : c.quantity == "covered_length" ? "length"
+                                                                : "reaction"),
                    {}});
   else if (c.point and not c.boundary.empty())
     out.push_back({key + ".point", "give boundary or point, not both", {}});
   check_water_curve(scene, c, key, out);
+  if (c.quantity == "covered_length" and not scene.material.contains(c.material))
+    out.push_back({key + ".material",
+                   c.material.empty()
+                       ? missing("Material of covered_length", "",
+                                 "one of " + join(names_of(scene.material)))
+                       : "no material '" + c.material + "', "
+                             + suggestion(c.material, names_of(scene.material)),
+                   {}});
+  if (c.quantity != "covered_length" and not c.material.empty())
+    out.push_back({key + ".material", "is not used by " + c.quantity, {}});
   if (c.quantity.starts_with("stress")
       or c.quantity.starts_with("effective_stress"))
   {

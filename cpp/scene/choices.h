@@ -55,7 +55,7 @@ const std::vector<std::string>& names()
   }
   else if constexpr (std::same_as<E, VoidRule>)
   {
-    static const Names list = {"by_bodies", "surface", "closing"};
+    static const Names list = {"surface", "by_bodies", "closing"};
     return list;
   }
   else

@@ -240,9 +240,9 @@ enum class Factorisation
 /// What void is to the materials that share a cell with it.
 enum class VoidRule
 {
+  surface,   ///< a free surface, integrated where it lies
   by_bodies, ///< beside one body its free surface, between two a gap
-  surface,   ///< always a free surface, integrated where it lies
-  closing    ///< always a gap: nothing bears load before it is closed
+  closing    ///< a gap: nothing bears load before it is closed
 };
 
 /// Knobs of the Lagrangian step.
@@ -261,7 +261,7 @@ struct Solver
   bool line_search = true;
   // of cells that several materials share
   std::string closure = "equal_pressure"; ///< name in the library's list
-  VoidRule void_rule = VoidRule::by_bodies;
+  VoidRule void_rule = VoidRule::surface;
   double spray_below =
       0.01; ///< a cell with less than this of bodies bears nothing
   double ersatz_stiffness =
@@ -384,10 +384,12 @@ struct Curve
                               ///< discharge of a boundary, outward;
                               ///< of a dynamic body: kinetic_energy,
                               ///< internal_work, external_work, total_energy;
-                              ///< tracer_max|min|total
+                              ///< tracer_max|min|total; of a boundary and a
+                              ///< material covered_length, of the boundary
   std::string boundary;       ///< a named boundary (means over it), or
   std::optional<Point> point; ///< a material point given at the start [m]
   std::string tracer;         ///< for tracer_*
+  std::string material;       ///< for covered_length
   double divide_by = 1;
   std::string breadth; ///< "" | "nominal" | "effective"
 };

@@ -352,8 +352,8 @@ void keys(V& v, Solver& s)
      "What materials that share a cell have in common besides velocity."},
     s.closure);
   v({"void_rule", "",
-     "Void in a cell: a free surface, a gap that closes before load passes, or "
-     "by_bodies, a gap where it lies between two."},
+     "Void in a cell: a free surface, a gap that closes before load passes, or a "
+     "gap where it lies between two bodies alone."},
     s.void_rule);
   v({"spray_below",
      "-",
@@ -421,6 +421,7 @@ void keys(V& v, Curve& c)
   v({"point", "m", "Material point that it belongs to, as at the start."},
     c.point);
   v({"tracer", "", "Tracer that it belongs to."}, c.tracer);
+  v({"material", "", "Material of covered_length."}, c.material);
   v({"divide_by", "-", "The quantity is divided by it, in its own unit."},
     c.divide_by);
   v({"breadth",
