@@ -61,7 +61,7 @@ void remap(Simulation& sim, int times)
     }
     bridge::RemapLog log;
     REQUIRE(sim.remap->due(sim.state, k));
-    sim.remap->run(sim.state, log);
+    sim.remap->run(sim.state, {}, log);
     INFO(log.trouble);
     REQUIRE(log.done);
   }
