@@ -61,11 +61,10 @@ double Monitor::covered_length(int boundary, const std::string& material) const
   double sum = 0;
   for (const mesh::Facet& f : _sim.domain.facets)
     if (f.boundary == boundary and f.cell < _sim.domain.num_owned_cells)
-      sum += std::hypot(x[2 * f.a] - x[2 * f.b],
-                        x[2 * f.a + 1] - x[2 * f.b + 1])
-             * (_sim.state.materials
-                    ? _sim.state.materials->fraction(f.cell, k)
-                    : 1);
+      sum +=
+          std::hypot(x[2 * f.a] - x[2 * f.b], x[2 * f.a + 1] - x[2 * f.b + 1])
+          * (_sim.state.materials ? _sim.state.materials->fraction(f.cell, k)
+                                  : 1);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, _sim.domain.comm);
   return sum;
 }

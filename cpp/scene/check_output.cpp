@@ -81,9 +81,9 @@ void check_body_curve(const Scene& scene, const Outline* outline,
 {
   const auto known = outline ? outline->names() : std::vector<std::string>();
   const bool place = c.quantity == "x_max" or c.quantity == "y_max";
-  const bool reaction =
-      c.quantity.starts_with("reaction") or c.quantity == "discharge" or place
-      or c.quantity == "covered_length";
+  const bool reaction = c.quantity.starts_with("reaction")
+                        or c.quantity == "discharge" or place
+                        or c.quantity == "covered_length";
   if (scene.motion)
     out.push_back({key + ".quantity",
                    c.quantity + " is not known with a prescribed motion",
@@ -93,14 +93,15 @@ void check_body_curve(const Scene& scene, const Outline* outline,
   if (reaction and c.point and c.quantity != "discharge")
     out.push_back({key + ".point",
                    std::format("a {} belongs to a boundary, not to a point",
-                               place                            ? "largest place"
+                               place ? "largest place"
                                : c.quantity == "covered_length" ? "length"
                                                                 : "reaction"),
                    {}});
   else if (c.point and not c.boundary.empty())
     out.push_back({key + ".point", "give boundary or point, not both", {}});
   check_water_curve(scene, c, key, out);
-  if (c.quantity == "covered_length" and not scene.material.contains(c.material))
+  if (c.quantity == "covered_length"
+      and not scene.material.contains(c.material))
     out.push_back({key + ".material",
                    c.material.empty()
                        ? missing("Material of covered_length", "",

@@ -352,7 +352,8 @@ void keys(V& v, Solver& s)
      "What materials that share a cell have in common besides velocity."},
     s.closure);
   v({"void_rule", "",
-     "Void in a cell: a free surface, a gap that closes before load passes, or a "
+     "Void in a cell: a free surface, a gap that closes before load passes, or "
+     "a "
      "gap where it lies between two bodies alone."},
     s.void_rule);
   v({"spray_below",

@@ -8,7 +8,7 @@ import shutil
 import sys
 from pathlib import Path
 
-before = "    volume = q * (theta - ln_J)\n"
+before = "    volume = fill * at(q) * (theta - ln_J)\n"
 after = "    momentum += 30.0 * rho * dot(u, v) / dt  # 30 per second\n"
 
 source, copy = map(Path, sys.argv[1:])
