@@ -38,6 +38,22 @@ void check_names(const Scene& scene, Complaints& out)
         out.push_back({"material." + name, "no region names it", {}});
 }
 
+/// What scenes with several materials cannot have.
+void check_several(const Scene& scene, Complaints& out)
+{
+  if (scene.solver.layout != Layout::mean)
+    out.push_back({"solver.layout", "must be mean with several materials", {}});
+  if (scene.solver.element == Element::constant_strain)
+    out.push_back({"solver.element",
+                   "must be mini or equal_order with several materials",
+                   {}});
+  if (scene.water)
+    out.push_back({"water", "is not there yet beside other materials", {}});
+  if (scene.initial.K0)
+    out.push_back(
+        {"initial.K0", "is not there yet with several materials", {}});
+}
+
 /// A rectangle between its corners.
 void check_rectangle(const std::string& key, const Region& region,
                      Complaints& out)
@@ -149,7 +165,14 @@ void check_regions(const Scene& scene, const Outline* outline,
                      "it first",
                      {}});
   }
-  if (scene.material.size() > 1 and scene.solver.layout != Layout::mean)
-    out.push_back({"solver.layout", "must be mean with several materials", {}});
+  for (const auto& [name, boundary] : scene.boundary)
+    if (not boundary.inflow.empty()
+        and (scene.material.size() < 2
+             or not scene.material.contains(boundary.inflow)))
+      out.push_back({"boundary." + name + ".inflow",
+                     "no such material beside others",
+                     {}});
+  if (scene.material.size() > 1)
+    check_several(scene, out);
 }
 } // namespace mmale::scene

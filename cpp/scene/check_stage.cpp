@@ -483,6 +483,9 @@ void check_remap(const Scene& scene, const Libraries& libraries,
     one_of("remap.transport", remap.transport, libraries.transports,
            "transport scheme");
   if (scene.material.size() > 1)
+    one_of("solver.closure", scene.solver.closure, libraries.closures,
+           "closure");
+  if (scene.material.size() > 1)
     one_of("remap.interfaces", remap.interfaces, libraries.interfaces,
            "reconstruction of interfaces");
   const auto known = outline ? outline->names() : std::vector<std::string>();
