@@ -445,16 +445,19 @@ TEST_CASE("closure: equal pressure never allocates", "[conformance][closure]")
 {
   const Kind kind = GENERATE(from_range(kinds()));
   INFO(kind.name);
-  if (std::string_view(kind.name).find("umat") != std::string_view::npos)
-    return; // its state is copied for a library that may do with it what it
-            // likes
   Random random(15);
   const std::vector<Part> parts = cell(kind, random);
   Answer a = shares(parts);
   const Voigt de = random.deviator(kind.strain, 2);
+  const auto ask = [&]
+  {
+    return EqualPressure{}(a.shares, de, kind.stress, kind.dt,
+                           TangentKind::consistent, {}, a.mixed);
+  };
+  // a umat keeps room for its arrays from its first call on
+  static_cast<void>(ask());
   const long before = allocations;
-  const Outcome outcome = EqualPressure{}(a.shares, de, kind.stress, kind.dt,
-                                          TangentKind::consistent, {}, a.mixed);
+  const Outcome outcome = ask();
   const long after = allocations;
   CHECK(outcome == Outcome::ok);
   CHECK(after == before);
