@@ -4,7 +4,7 @@
 import csv
 import math
 
-from case import at, checks_hold, conserved, curves, main, run, same_on
+from case import WORK, at, checks_hold, conserved, curves, main, run, same_on
 from common import hold, summary
 
 
@@ -52,6 +52,95 @@ def spherical_cavity_fine():
     """A ball's cavity to four times its radius."""
     folder, _ = run("spherical_cavity")
     checks_hold(folder)
+
+
+def column_collapse():
+    """A column of sand comes to rest on two meshes, its foot on the base."""
+    folder, _ = run("column_collapse", "mesh.size=0.25,0.125", code=0)
+    runout = {}
+    for size in ("0.25", "0.125"):
+        member = folder / f"mesh.size={size}"
+        curve = curves(member)
+        kinetic, front = curve["kinetic"], curve["front"]
+        hold(kinetic[-1] < 1e-3 * max(kinetic), f"at rest: {kinetic[-1]:.1e} J")
+        hold(curve["quality"][-1] > 0.05, f"worst cell {curve['quality'][-1]:.2f}")
+        # a column half as high as wide keeps its top at the wall
+        hold(abs(curve["height"][-1] - 0.5) < 2e-3, f"{curve['height'][-1]:.4f} m")
+        # the base goes on with the foot: no node of the surface is left on it
+        hold(front[-1] > 1.2, f"front at {front[-1]:.3f} m")
+        runout[size] = front[-1] - 1
+        lost = {e["name"]: e for e in summary(member)["ledger"]}["mass"]
+        share = abs(lost["through_surface"]) / lost["start"]
+        hold(share < 2e-3, f"{share:.1e} of the mass through the surface")
+        conserved(member)
+    hold(runout["0.125"] < 0.6, "the experiments' 1.2 a is not passed")
+
+
+def level_wall():
+    """A block falls on a level wall as its mirror image on an upright one."""
+    for grip in ("smooth", "rough"):
+        ends = []
+        for fall, slide, side in (("y", "x", "bottom"), ("x", "y", "left")):
+            scene = WORK / f"{grip}_{fall}.toml"
+            start = "1.0, 0.0" if fall == "y" else "0.0, 1.0"
+            pull = "0.0, -10.0" if fall == "y" else "-10.0, 0.0"
+            scene.write_text(BLOCK.format(**locals()))
+            folder, _ = run(scene, results=f"{grip}_{fall}")
+            ends.append(curves(folder))
+        level, upright = ends
+        for name in ("fall", "slide", "sliding", "kinetic"):
+            pairs = list(zip(level[name], upright[name], strict=True))
+            largest = max(abs(a) for a, _ in pairs)
+            apart = max(abs(a - b) for a, b in pairs) / largest
+            hold(apart < 1e-8, f"{grip}, {name}: mirror images {apart:.1e} apart")
+        landed = next(i for i, u in enumerate(level["fall"]) if u <= -0.05 + 1e-12)
+        t = level["time"][landed]
+        hold(abs(t - 0.1) < 0.002, f"{grip}: on the wall at {t:.4f} s, sqrt(2 h / g)")
+        deepest = min(level["fall"])
+        hold(deepest > -0.05 - 1e-9, f"{grip}: no deeper than {deepest:.6f} m")
+        slid, last = level["slide"][-1], level["sliding"][-1]
+        if grip == "smooth":  # nothing pulls along the wall; it swings a little
+            hold(abs(slid / level["time"][-1] - 1) < 3e-3, f"smooth: slid {slid:.6f} m")
+        else:
+            hold(abs(slid - 0.1) < 0.003, f"rough: stopped after {slid:.4f} m")
+            hold(abs(last) < 1e-9, f"rough: slides by {last:.1e} m/s")
+
+
+BLOCK = """
+title = "A block falls on a wall and slides"
+[mesh]
+shape = "rectangle"
+width = 0.2
+height = 0.2
+size = 0.05
+diagonal = "right"
+[material.block]
+law = "elastic"
+E = 1e7
+nu = 0.3
+density = 1000.0
+[initial]
+velocity = [{start}]
+[[stage]]
+name = "fall"
+duration = 0.13
+step = 0.001
+gravity = [{pull}]
+dynamics = {{alpha = -0.1}}
+[stage.boundary.{side}]
+wall = {{{fall} = -0.05, grip = "{grip}"}}
+[output.curve.fall]
+quantity = "displacement_{fall}"
+boundary = "{side}"
+[output.curve.slide]
+quantity = "displacement_{slide}"
+boundary = "{side}"
+[output.curve.sliding]
+quantity = "velocity_{slide}"
+boundary = "{side}"
+[output.curve.kinetic]
+quantity = "kinetic_energy"
+"""
 
 
 def grout_channel():
