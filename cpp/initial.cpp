@@ -181,7 +181,7 @@ void fill_initial(const scene::Scene& scene, const mesh::Domain& domain,
                   std::span<const material::AnyLaw> laws, State& state)
 {
   state.materials = bridge::paint(scene, domain);
-  const ::remap::Materials& materials = *state.materials;
+  const bridge::Materials& materials = *state.materials;
   const auto slots = static_cast<std::size_t>(materials.num_slots());
   std::size_t h = 0;
   bool floor = false;

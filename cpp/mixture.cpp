@@ -23,14 +23,14 @@ void clear(State& state)
 void fill(State& state)
 {
   clear(state);
-  const ::remap::Materials& materials = *state.materials;
+  const bridge::Materials& materials = *state.materials;
   const auto mixed = materials.mixed();
   for (std::size_t row = 0; row < mixed.size(); ++row)
   {
     const auto c = static_cast<std::size_t>(mixed[row]);
     auto slot = static_cast<std::size_t>(
         materials.first_slot(static_cast<std::int32_t>(row)));
-    for (const ::remap::Part& part :
+    for (const bridge::Part& part :
          materials.parts(static_cast<std::int32_t>(row)))
     {
       for (int i = 0; i < 4; ++i)
@@ -44,8 +44,8 @@ void fill(State& state)
 
 namespace
 {
-using ::remap::Materials;
-using ::remap::Part;
+using bridge::Materials;
+using bridge::Part;
 
 /// Calls visit(part, slot) for what a cell holds; a pure one is one part.
 void each_part(const Materials& materials, std::int32_t c, auto&& visit)

@@ -10,7 +10,7 @@ namespace mmale
 {
 /// Calls visit(cell, slot, fraction) for all that a material has of the cells,
 /// ghosts too.
-void each_part(const ::remap::Materials& materials, std::int32_t material,
+void each_part(const bridge::Materials& materials, std::int32_t material,
                auto&& visit)
 {
   for (std::int32_t c = 0; c < materials.num_cells(); ++c)

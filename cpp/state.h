@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "remap/materials/materials.h"
+#include "bridge/materials.h"
 #include <map>
 #include <optional>
 #include <string>
@@ -34,7 +34,7 @@ struct State
   std::vector<double> v; ///< velocity; in statics displacement increment /
                          ///< step, shape (n, 2) [m/s]
 
-  std::optional<::remap::Materials> materials; ///< where there are several
+  std::optional<bridge::Materials> materials; ///< where there are several
 
   std::vector<double> s; ///< deviator xx yy zz xy, shape (m, points, 4) [Pa]
   std::vector<double> P; ///< pressure of the points, shape (m, points) [Pa]

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mixed_element.h"
 
-#include "mesh/corners.h"
 #include "mixed.h"
-#include "mixture.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,36 +11,11 @@ namespace mmale::lagrangian
 {
 namespace
 {
-using ::remap::Materials;
-using ::remap::Part;
+using bridge::Materials;
+using bridge::Part;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What an open gap keeps of its volume equation, lest a node without any
-/// other cell has no pressure. Doubled: twice as much of nothing.
-constexpr double open_fill = 1e-6;
-/// Void that is left of a gap that has closed; the remap sweeps it up.
-constexpr double closed_fill = 1e-13;
-
-/// Part of the ersatz stiffness that holds nodes to where they were, lest
-/// crumbs that touch nothing float about in statics.
-constexpr double grounded = 1e-4;
-
-/// Shares of the vertices of a cell in a point.
-std::array<double, 3> shares_at(const mesh::Domain& domain,
-                                std::span<const double> x, int c,
-                                ::remap::Point at)
-{
-  const auto& n = domain.cells[c];
-  const auto cross = [&](int i, int j)
-  {
-    return (x[2 * n[i]] - at.x) * (x[2 * n[j] + 1] - at.y)
-           - (x[2 * n[j]] - at.x) * (x[2 * n[i] + 1] - at.y);
-  };
-  const std::array<double, 3> a{cross(1, 2), cross(2, 0), cross(0, 1)};
-  const double sum = a[0] + a[1] + a[2];
-  return {a[0] / sum, a[1] / sum, a[2] / sum};
-}
 } // namespace
 
 MixedElement::MixedElement(const mesh::Domain& domain,
@@ -110,6 +83,23 @@ void MixedElement::find_cells(const State& state)
   _part_history.assign(parts * _num_history, 0);
 }
 
+/// Shares of the vertices of a cell in a part's middle.
+std::array<double, 3> MixedElement::shares_at(const State& state, int c,
+                                              const Part& part) const
+{
+  const auto& x = state.x;
+  const auto& n = _domain.cells[c];
+  const auto [px, py] = std::array{part.centroid.x, part.centroid.y};
+  const auto cross = [&](int i, int j)
+  {
+    return (x[2 * n[i]] - px) * (x[2 * n[j] + 1] - py)
+           - (x[2 * n[j]] - px) * (x[2 * n[i] + 1] - py);
+  };
+  const std::array<double, 3> a{cross(1, 2), cross(2, 0), cross(0, 1)};
+  const double sum = a[0] + a[1] + a[2];
+  return {a[0] / sum, a[1] / sum, a[2] / sum};
+}
+
 /// How a mixed cell is made up at the start of the step.
 void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
 {
@@ -121,7 +111,7 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
   std::array<double, 3> middle{0, 0, 0}; // about an axis not the third parts
   for (const Part& part : materials.parts(m.row))
   {
-    const auto at = shares_at(_domain, state.x, c, part.centroid);
+    const auto at = shares_at(state, c, part);
     for (int v = 0; v < 3; ++v)
       middle[v] += part.fraction * at[v] - part.fraction / 3;
     if (const double rho = state.density[slot++]; not is_void(part.material))
@@ -386,220 +376,5 @@ void MixedElement::bear_nothing(const State& state, int c)
   cell.answer = {};
   cell.p = 0;
   settle_answer(c);
-}
-
-void MixedElement::gather(const State& state, int c, std::span<const double> z,
-                          CellInput& in, double* x) const
-{
-  MeanElement::gather(state, c, z, in, x);
-  if (_of_cell[c] < 0)
-  {
-    const Medium& medium = _media[state.materials->pure(c)];
-    in.memory = medium.fluid() ? 0 : 1;
-    return;
-  }
-  const Mixture& m = _mixture[_of_cell[c]];
-  bool fluid = true;
-  for (const Part& part : state.materials->parts(m.row))
-    fluid = fluid and (is_void(part.material) or _media[part.material].fluid());
-  in.mean_rho = in.rho;
-  in.rho /= m.fill;
-  in.memory = fluid ? 0 : 1;
-  in.rho_b = in.rho;
-  in.fill = m.fill;
-  in.kept = 1;
-  for (int d = 0; d < 2; ++d)
-  {
-    in.offset[d] = in.mass_offset[d] = 0;
-    for (int v = 0; v < 3; ++v)
-    {
-      in.offset[d] += (m.centre[v] - 1. / 3) * x[3 * v + d];
-      in.mass_offset[d] += (m.mass_centre[v] - 1. / 3) * x[3 * v + d];
-    }
-  }
-  if (not m.open)
-    return;
-  in.fill = m.spray ? 0 : open_fill;
-  in.kept = 0; // no bubble
-  in.ln_J = 0;
-  in.theta = 0;
-  for (int v = 0; v < 3; ++v)
-    in.theta -= z[3 * _domain.cells[c][v] + 2] / (3 * _K_open);
-}
-
-void MixedElement::add_tangent(int c, CellInput& in) const
-{
-  MeanElement::add_tangent(c, in);
-  if (_of_cell[c] < 0 or not _mixture[_of_cell[c]].open)
-    return;
-  std::ranges::fill(in.ds_dp, 0.0);
-  std::ranges::fill(in.dtheta_dh, 0.0);
-  in.dtheta_dp = -1 / _K_open;
-}
-
-const MeanElement::Balance& MixedElement::balance(int c) const
-{
-  return _of_cell[c] < 0 ? MeanElement::balance(c) : _shared;
-}
-
-void MixedElement::residual(const State& state, int c,
-                            std::span<const double> z,
-                            const Constants& constants, double* R)
-{
-  if (_empty[c])
-    std::fill_n(R, 9, 0.0);
-  else
-    MeanElement::residual(state, c, z, constants, R);
-  if (const double k = ersatz(state, c); k > 0)
-    for (int v = 0; v < 3; ++v)
-      for (int d = 0; d < 2; ++d)
-      {
-        const auto u = [&](int i)
-        { return z[3 * _domain.cells[c][(v + i) % 3] + d]; };
-        R[3 * v + d] += k * ((2 + grounded) * u(0) - u(1) - u(2));
-      }
-}
-
-/// Stiffness of the springs between the nodes of a cell that is in part void:
-/// they hold nodes that have next to nothing of a body [N/m2 or N/(m rad)].
-double MixedElement::ersatz(const State& state, int c) const
-{
-  if (_of_cell[c] < 0)
-    return 0;
-  const Mixture& m = _mixture[_of_cell[c]];
-  if (m.bodies == 1)
-    return 0;
-  const double rho = state.density[c] / m.bodies;
-  const double V = mesh::cell_volume(_domain, state.x, c, _axisymmetric);
-  const double A =
-      _axisymmetric ? mesh::cell_volume(_domain, state.x, c, false) : V;
-  const double inertia = _newmark ? rho * _newmark->c_a * V : 0;
-  return (1 - m.bodies) * _options.ersatz_stiffness * (_G[c] * V / A + inertia);
-}
-
-void MixedElement::jacobian(const State& state, int c,
-                            std::span<const double> z,
-                            const Constants& constants, double* J)
-{
-  if (_empty[c])
-    std::fill_n(J, 81, 0.0);
-  else
-    MeanElement::jacobian(state, c, z, constants, J);
-  if (const double k = ersatz(state, c); k > 0)
-    for (int i = 0; i < 9; ++i)
-      for (int j = i % 3; i % 3 != 2 and j < 9; j += 3)
-        J[9 * i + j] += i == j ? (2 + grounded) * k : -k;
-}
-
-std::array<double, 6> MixedElement::forces(const State& state, int c,
-                                           std::span<const double> z,
-                                           const Constants& constants) const
-{
-  return _empty[c] ? std::array<double, 6>{}
-                   : MeanElement::forces(state, c, z, constants);
-}
-
-/// Parts of the owned mixed cells at the end of the step. Their masses stay.
-void MixedElement::accept_parts(State& state, std::span<const double> z) const
-{
-  Materials& materials = *state.materials;
-  const std::size_t h = _num_history, cells = materials.num_cells();
-  for (std::size_t i = 0; i < _mixed.size(); ++i)
-  {
-    const int c = _mixed[i];
-    const Mixture& m = _mixture[i];
-    const double J = std::exp(_cell[c].motion.ln_J);
-    const auto parts = materials.parts(m.row);
-    const std::size_t first = materials.first_slot(m.row);
-    double filled = 0; // of the old volume, by what bears load at the end
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      if (not is_void(parts[k].material))
-        filled += parts[k].fraction * std::exp(_part[first + k - cells].theta);
-    // its fraction at the end
-    const double fill = m.open ? filled / J : m.gap ? 1 - closed_fill : m.fill;
-    for (std::size_t k = 0; k < parts.size(); ++k)
-    {
-      Part& part = parts[k];
-      const std::size_t slot = first + k;
-      const PartEnd& end = _part[slot - cells];
-      const auto at = shares_at(_domain, state.x, c, part.centroid);
-      for (int v = 0; v < 3; ++v)
-      {
-        const int n = _domain.cells[c][v];
-        part.centroid.x += at[v] * z[3 * n];
-        part.centroid.y += at[v] * z[3 * n + 1];
-      }
-      const double before = part.fraction;
-      part.fraction = is_void(part.material)
-                          ? 1 - fill
-                          : fill * before * std::exp(end.theta) / filled;
-      state.density[slot] *=
-          is_void(part.material) ? 1 : before / (part.fraction * J);
-      Voigt::Map(state.s.data() + 4 * slot) = end.s;
-      state.P[slot] = end.p;
-      std::copy_n(_part_history.begin() + h * (slot - cells), h,
-                  state.history.begin() + h * slot);
-    }
-  }
-}
-
-void MixedElement::accept(State& state, std::span<const double> z, double dt)
-{
-  accept_parts(state, z);
-  MeanElement::accept(state, z, dt);
-  send_parts(state);
-  mixture::fill(state);
-}
-
-/// Parts of ghost cells from their owners; which there are has not changed.
-void MixedElement::send_parts(State& state) const
-{
-  int ranks = 1;
-  MPI_Comm_size(_domain.comm, &ranks);
-  if (ranks == 1)
-    return;
-  Materials& materials = *state.materials;
-  const std::size_t h = _num_history, width = 9 + h; // of a part
-  int most = 0;
-  for (std::size_t r = 0; r < materials.mixed().size(); ++r)
-    most = std::max(
-        most,
-        static_cast<int>(materials.parts(static_cast<std::int32_t>(r)).size()));
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, _domain.comm);
-  if (most == 0)
-    return;
-  const std::size_t row = most * width;
-  std::vector<double> all(row * _domain.num_cells(), 0);
-  const auto each = [&](auto&& visit)
-  {
-    for (const std::int32_t c : materials.mixed())
-    {
-      double* at = all.data() + row * c;
-      std::size_t slot = materials.first_slot(materials.row(c));
-      for (Part& part : materials.parts(materials.row(c)))
-      {
-        double* to = at;
-        visit(c, part.fraction, *to++);
-        visit(c, part.centroid.x, *to++);
-        visit(c, part.centroid.y, *to++);
-        visit(c, state.P[slot], *to++);
-        visit(c, state.density[slot], *to++);
-        for (int i = 0; i < 4; ++i)
-          visit(c, state.s[4 * slot + i], *to++);
-        for (std::size_t i = 0; i < h; ++i)
-          visit(c, state.history[h * slot + i], *to++);
-        at += width;
-        ++slot;
-      }
-    }
-  };
-  each([](std::int32_t, double& value, double& sent) { sent = value; });
-  _domain.cell_halo->update(all, static_cast<int>(row));
-  each(
-      [this](std::int32_t c, double& value, const double& sent)
-      {
-        if (c >= _domain.num_owned_cells)
-          value = sent;
-      });
 }
 } // namespace mmale::lagrangian

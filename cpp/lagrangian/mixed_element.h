@@ -59,6 +59,8 @@ private:
     double guess; ///< of theta, or NaN
   };
   void find_cells(const State& state);
+  std::array<double, 3> shares_at(const State& state, int cell,
+                                  const bridge::Part& part) const;
   void find_mixture(const State& state, int cell, Mixture& m) const;
   const char* answer_mixture(const State& state, int cell,
                              std::span<const double> z, double dt);

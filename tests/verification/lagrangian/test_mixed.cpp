@@ -65,7 +65,7 @@ std::vector<double> random_trial(const Body& body, double displacement,
 void set_pressure(Body& body, const std::function<double(double, double)>& p)
 {
   State& state = body.state();
-  const ::remap::Materials& materials = *state.materials;
+  const bridge::Materials& materials = *state.materials;
   for (int c = 0; c < body.num_cells(); ++c)
   {
     double x = 0, y = 0;
