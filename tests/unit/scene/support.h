@@ -24,6 +24,8 @@ inline Libraries libraries()
            {"j2", {E, nu, yield, hardening, density}}},
           {"average", "optimise"},
           {"donor_cell", "limited_linear"},
+          {"equal_pressure"},
+          {"moment_of_fluid"},
           {"plastic_strain", "pressure", "velocity"}};
 }
 
