@@ -15,7 +15,7 @@ using bridge::Materials;
 using bridge::Part;
 
 /// What an open gap keeps of its volume equation, lest a node without any
-/// other cell has no pressure. Doubled: twice as much of nothing.
+/// other cell has none. Larger: it takes part in its neighbours' equations.
 constexpr double open_fill = 1e-6;
 /// Void that is left of a gap that has closed; the remap sweeps it up.
 constexpr double closed_fill = 1e-13;

@@ -106,9 +106,10 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
   const Materials& materials = *state.materials;
   m.row = materials.row(c);
   std::size_t slot = materials.first_slot(m.row);
-  int bodies = 0;
+  int number = 0; // of bodies
   double fill = 0, mass = 0;
-  std::array<double, 3> middle{0, 0, 0}; // about an axis not the third parts
+  std::array<double, 3> middle{0, 0, 0}; // of the cell less 1/3: not 0 about
+                                         // an axis
   for (const Part& part : materials.parts(m.row))
   {
     const auto at = shares_at(state, c, part);
@@ -116,7 +117,7 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
       middle[v] += part.fraction * at[v] - part.fraction / 3;
     if (const double rho = state.density[slot++]; not is_void(part.material))
     {
-      ++bodies;
+      ++number;
       fill += part.fraction;
       mass += part.fraction * rho;
       for (int v = 0; v < 3; ++v)
@@ -127,10 +128,10 @@ void MixedElement::find_mixture(const State& state, int c, Mixture& m) const
     }
   }
   const bool with_void =
-      static_cast<std::size_t>(bodies) < materials.parts(m.row).size();
+      static_cast<std::size_t>(number) < materials.parts(m.row).size();
   m.gap = with_void
           and (_rule == scene::VoidRule::closing
-               or (_rule == scene::VoidRule::by_bodies and bodies > 1));
+               or (_rule == scene::VoidRule::by_bodies and number > 1));
   m.fill = with_void and not m.gap ? fill : 1;
   m.bodies = fill;
   m.spray = with_void and fill < _options.spray_below;
@@ -146,10 +147,11 @@ void MixedElement::begin_step(const State& state, double dt)
 {
   find_cells(state);
   MeanElement::begin_step(state, dt);
-  // any stiffness of the scene's: it only sets p of nodes that bear nothing
+  // sets p = 0 at nodes that bear nothing; the same on all ranks
   _K_open = 0;
   for (int c : _mixed)
     _K_open = std::max(_K_open, moduli(state, c, dt).K);
+  MPI_Allreduce(MPI_IN_PLACE, &_K_open, 1, MPI_DOUBLE, MPI_MAX, _domain.comm);
 }
 
 material::Moduli MixedElement::moduli(const State& state, int c, double dt,

@@ -73,7 +73,8 @@ def column_collapse():
         share = abs(lost["through_surface"]) / lost["start"]
         hold(share < 2e-3, f"{share:.1e} of the mass through the surface")
         conserved(member)
-    hold(runout["0.125"] < 0.6, "the experiments' 1.2 a is not passed")
+    # a fingerprint; experiments give 0.6
+    hold(0.34 < runout["0.125"] < 0.39, f"runout {runout['0.125']:.3f}")
 
 
 def level_wall():
